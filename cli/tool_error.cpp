@@ -1,0 +1,22 @@
+#include "cli/tool_error.hpp"
+
+namespace tvg::cli {
+
+namespace {
+
+ExitStatus exit_status(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kInvalidArgument: return ExitStatus::kUsage;
+    case ErrorCode::kIo: return ExitStatus::kIo;
+    case ErrorCode::kOutOfMemory: return ExitStatus::kOther;
+    default: return ExitStatus::kInvalidInput;
+  }
+}
+
+}  // namespace
+
+ToolError tool_error(const std::string& file, const Error& error) {
+  return {exit_status(error.code), file + ": " + error.describe()};
+}
+
+}  // namespace tvg::cli

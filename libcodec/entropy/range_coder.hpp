@@ -1,0 +1,135 @@
+#pragma once
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "entropy/adaptive_models.hpp"
+
+// The arithmetic coder (format-spec §6.1) with the same call on both sides: `code(model, value)` writes the value and
+// returns it when encoding, ignores the argument and returns the value read when decoding. Code above this layer is
+// written once, as a template over the coder, and so cannot fall out of step.
+namespace tvg {
+
+/// Bits of the probability scale: frequencies of a model add up to 1 << kProbabilityBits.
+inline constexpr int kProbabilityBits = 15;
+
+/// Writes symbols. `range` stays in [2^31, 2^32) after every symbol, so that a frequency is never rounded by more
+/// than 2^-16 of itself.
+class RangeEncoder {
+ public:
+  static constexpr bool kDecoding = false;
+
+  /// Codes one symbol of an adaptive alphabet and adapts the model.
+  std::uint32_t code(AdaptiveSymbol& model, std::uint32_t symbol) {
+    const std::uint32_t low = model.cumulative(symbol);
+    encode(low, model.cumulative(symbol + 1) - low);
+    model.adapt(symbol);
+    return symbol;
+  }
+
+  /// Codes one bit and adapts the model.
+  bool code(AdaptiveBit& model, bool bit) {
+    const std::uint32_t zero = model.zero_frequency();
+    if (bit) {
+      encode(zero, (1u << kProbabilityBits) - zero);
+    } else {
+      encode(0, zero);
+    }
+    model.adapt(bit);
+    return bit;
+  }
+
+  /// Codes `count` (0 to 15) equally likely bits, value < 2^count.
+  std::uint32_t code_raw(std::uint32_t value, int count) {
+    encode(value << (kProbabilityBits - count), 1u << (kProbabilityBits - count));
+    return value;
+  }
+
+  /// Ends the stream and returns its bytes; the encoder is then empty, ready for another stream.
+  std::vector<std::uint8_t> finish();
+
+ private:
+  void encode(std::uint32_t cumulative, std::uint32_t frequency);
+  void put_byte();
+
+  std::uint64_t low_ = 0;           ///< 32 bits below the point, `pending_` bits (and a carry) above it
+  std::uint32_t range_ = 0xFFFFFFFFu;
+  int pending_ = 0;                 ///< bits settled but for a carry, not yet in bytes_
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Reads symbols from bytes it does not own. It never reads past their end: zero bits follow the last byte, and
+/// finished() tells afterwards whether exactly these bytes are what an encoder would have written.
+class RangeDecoder {
+ public:
+  static constexpr bool kDecoding = true;
+
+  explicit RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) { refill(); }
+
+  std::uint32_t code(AdaptiveSymbol& model, std::uint32_t /*ignored*/ = 0) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    const AdaptiveSymbol::Interval interval = model.find(target(unit));
+    consume(unit, interval.low, interval.high - interval.low);
+    model.adapt(interval.symbol);
+    return interval.symbol;
+  }
+
+  bool code(AdaptiveBit& model, bool /*ignored*/ = false) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    const std::uint32_t zero = model.zero_frequency();
+    const bool bit = static_cast<std::uint32_t>(window_ >> 32) >= unit * zero;
+    if (bit) {
+      consume(unit, zero, (1u << kProbabilityBits) - zero);
+    } else {
+      consume(unit, 0, zero);
+    }
+    model.adapt(bit);
+    return bit;
+  }
+
+  std::uint32_t code_raw(std::uint32_t /*ignored*/, int count) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    const int shift = kProbabilityBits - count;
+    const std::uint32_t value = target(unit) >> shift;
+    consume(unit, value << shift, 1u << shift);
+    return value;
+  }
+
+  /// True once more bits were used than the bytes hold, or no encoder can have written them: what is decoded from here on is meaningless.
+  bool overrun() const { return overrun_ || (targets_ >> kProbabilityBits) != 0; }
+
+  /// After the last symbol: true when the stream ends exactly here, in the one form the encoder writes (§6.1).
+  bool finished() const;
+
+ private:
+  /// Where in the probability scale the code value lies.
+  std::uint32_t target(std::uint32_t unit) {
+    const std::uint32_t quotient = static_cast<std::uint32_t>(window_ >> 32) / unit;
+    targets_ |= quotient;
+    return quotient < (1u << kProbabilityBits) ? quotient : (1u << kProbabilityBits) - 1;
+  }
+
+  void consume(std::uint32_t unit, std::uint32_t cumulative, std::uint32_t frequency) {
+    window_ -= static_cast<std::uint64_t>(unit * cumulative) << 32;
+    range_ = unit * frequency;
+    const int shift = std::countl_zero(range_);
+    range_ <<= shift;
+    window_ <<= shift;
+    available_ -= shift;
+    if (available_ < 32) refill();
+  }
+
+  void refill();
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t next_ = 0;        ///< bytes taken into the window, counting imagined zero bytes after the end
+  std::uint64_t window_ = 0;    ///< upper 32 bits: code value minus low; below them the bits that follow
+  int available_ = 0;           ///< bits of the window that are filled
+  std::uint32_t range_ = 0xFFFFFFFFu;
+  std::uint32_t targets_ = 0;   ///< all targets or-ed: a bit above the scale marks an impossible code value
+  bool overrun_ = false;
+};
+
+}  // namespace tvg

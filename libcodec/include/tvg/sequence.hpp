@@ -1,0 +1,64 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tvg/error.hpp>
+#include <tvg/mesh.hpp>
+
+namespace tvg {
+
+/// Key-value pairs in UTF-8. Reserved keys: `fps` ("30", "30000/1001"), `name`, `units` ("m", "cm", ...), `up` ("y", "z").
+using Metadata = std::map<std::string, std::string>;
+
+/// Positions of one frame: float32 [vertex][xyz], 3 * vertex_count values.
+using FramePositions = std::vector<float>;
+
+/// Frames of one mesh over time, all in memory.
+struct Sequence {
+  Mesh mesh;
+  std::vector<FramePositions> frames;  ///< [frame][vertex][xyz]
+  Metadata metadata;
+};
+
+/// A source of frames that is read front to back, so that no one has to hold a whole sequence in memory.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// The connectivity of every frame; valid as long as the source.
+  virtual const Mesh& mesh() const = 0;
+  /// What the source knows about itself (fps, name, units).
+  virtual Metadata metadata() const { return {}; }
+  /// Number of frames, where the source can know it before reading (a pipe may not).
+  virtual std::optional<std::uint64_t> frame_count() const = 0;
+  /// Reads the next frame into `positions` ([vertex][xyz], exactly 3 * vertex_count floats).
+  /// Returns false at the end of the sequence; an error when the input is broken.
+  virtual Result<bool> read_frame(std::span<float> positions) = 0;
+  /// Goes back to the first frame. Returns false where the input can be read only once (a pipe).
+  virtual bool rewind() = 0;
+};
+
+/// A FrameSource over frames in memory; the sequence must outlive it.
+class SequenceSource final : public FrameSource {
+ public:
+  explicit SequenceSource(const Sequence& sequence) : sequence_(sequence) {}
+
+  const Mesh& mesh() const override { return sequence_.mesh; }
+  Metadata metadata() const override { return sequence_.metadata; }
+  std::optional<std::uint64_t> frame_count() const override { return sequence_.frames.size(); }
+  Result<bool> read_frame(std::span<float> positions) override;
+  bool rewind() override {
+    next_ = 0;
+    return true;
+  }
+
+ private:
+  const Sequence& sequence_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace tvg
