@@ -4,17 +4,28 @@ namespace tvg {
 
 const char* error_name(ErrorCode code) {
   switch (code) {
-    case ErrorCode::kInvalidArgument: return "invalid-argument";
-    case ErrorCode::kInvalidInput: return "invalid-input";
-    case ErrorCode::kNotTvg: return "not-tvg";
-    case ErrorCode::kUnsupportedVersion: return "unsupported-version";
-    case ErrorCode::kTruncated: return "truncated";
-    case ErrorCode::kChecksumMismatch: return "checksum-mismatch";
-    case ErrorCode::kMalformed: return "malformed";
-    case ErrorCode::kDigestMismatch: return "digest-mismatch";
-    case ErrorCode::kLimitExceeded: return "limit-exceeded";
-    case ErrorCode::kOutOfMemory: return "out-of-memory";
-    case ErrorCode::kIo: return "io";
+    case ErrorCode::kInvalidArgument:
+      return "invalid-argument";
+    case ErrorCode::kInvalidInput:
+      return "invalid-input";
+    case ErrorCode::kNotTvg:
+      return "not-tvg";
+    case ErrorCode::kUnsupportedVersion:
+      return "unsupported-version";
+    case ErrorCode::kTruncated:
+      return "truncated";
+    case ErrorCode::kChecksumMismatch:
+      return "checksum-mismatch";
+    case ErrorCode::kMalformed:
+      return "malformed";
+    case ErrorCode::kDigestMismatch:
+      return "digest-mismatch";
+    case ErrorCode::kLimitExceeded:
+      return "limit-exceeded";
+    case ErrorCode::kOutOfMemory:
+      return "out-of-memory";
+    case ErrorCode::kIo:
+      return "io";
   }
   return "unknown";
 }

@@ -8,9 +8,12 @@ Result<bool> SequenceSource::read_frame(std::span<float> positions) {
   if (next_ == sequence_.frames.size()) return false;
   const FramePositions& frame = sequence_.frames[next_];
   if (frame.size() != positions.size()) {
-    Error error{ErrorCode::kInvalidInput, "frame " + std::to_string(next_) + " has " +
-                                              std::to_string(frame.size() / 3) + " vertices where the mesh has " +
-                                              std::to_string(positions.size() / 3), {}, {}, ""};
+    Error error{ErrorCode::kInvalidInput,
+                "frame " + std::to_string(next_) + " has " + std::to_string(frame.size() / 3) +
+                    " vertices where the mesh has " + std::to_string(positions.size() / 3),
+                {},
+                {},
+                ""};
     error.frame = next_;
     return error;
   }

@@ -1,10 +1,19 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
-// Adaptive probability models (format-spec §6.2), shared by encoder and decoder. All arithmetic is in integers.
+// Adaptive probability models (format-spec §6.2), shared by encoder and decoder. All arithmetic is in
+// integers.
 namespace tvg {
+
+/// Bits of the probability scale: the frequencies of a model add up to 1 << kProbabilityBits.
+inline constexpr int kProbabilityBits = 15;
 
 /// One binary decision. Two estimates of the probability of zero, one fast and one slow, are averaged.
 class AdaptiveBit {
@@ -33,59 +42,129 @@ class AdaptiveBit {
   std::uint8_t count_ = 0;
 };
 
-/// An adaptive alphabet of up to 16 symbols. Two cumulative distributions, one fast and one slow, are averaged.
+/// An adaptive alphabet of up to 16 symbols: a cumulative distribution that moves towards each symbol seen,
+/// in large steps at first and in smaller ones later. The coder takes one model or the mean of two.
 class AdaptiveSymbol {
  public:
   static constexpr int kMaxSymbols = 16;
 
+  /// Starts with `symbol_count` (2 to 16) equally likely symbols.
+  explicit AdaptiveSymbol(int symbol_count = kMaxSymbols) {
+    for (int i = 0; i < kMaxSymbols; ++i) {
+      cumulative_[static_cast<std::size_t>(i)] =
+          static_cast<std::uint16_t>(0xFFFF * std::min(i, symbol_count) / symbol_count);
+    }
+  }
+
+  /// Starts with a given distribution: weights add up to at most 0xFFFF; what is missing goes to the last
+  /// symbol.
+  explicit AdaptiveSymbol(const std::array<std::uint16_t, kMaxSymbols>& weights) {
+    std::uint16_t sum = 0;
+    for (std::size_t i = 0; i < kMaxSymbols; ++i) {
+      cumulative_[i] = sum;
+      sum = static_cast<std::uint16_t>(sum + weights[i]);
+    }
+  }
+
+  void adapt(std::uint32_t symbol) {
+    const int rate = 4 + kRateSteps[count_];
+    const std::uint16_t* above = kAbove.data() + (kMaxSymbols - 1 - symbol);
+#if defined(__SSE2__)
+    const __m128i shift = _mm_cvtsi32_si128(rate);
+    for (std::size_t half = 0; half < 2; ++half) {
+      auto* lanes = reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half);
+      const __m128i goal = _mm_loadu_si128(reinterpret_cast<const __m128i*>(above + 8 * half));
+      const __m128i distance = _mm_xor_si128(_mm_load_si128(lanes), goal);
+      const __m128i rest = _mm_sub_epi16(distance, _mm_srl_epi16(distance, shift));
+      _mm_store_si128(lanes, _mm_xor_si128(rest, goal));
+    }
+#else
+    for (std::size_t i = 0; i < kMaxSymbols; ++i) {
+      const unsigned distance = cumulative_[i] ^ above[i];
+      cumulative_[i] = static_cast<std::uint16_t>((distance - (distance >> rate)) ^ above[i]);
+    }
+#endif
+    count_ = static_cast<std::uint8_t>(count_ + (count_ < kRateSteps.size() - 1 ? 1 : 0));
+  }
+
+ private:
+  friend class SymbolMixture;
+
+  static constexpr std::array<std::uint8_t, 65> kRateSteps = [] {
+    std::array<std::uint8_t, 65> steps{};
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      steps[i] = static_cast<std::uint8_t>((i >= 12 ? 1 : 0) + (i >= 28 ? 1 : 0) + (i >= 64 ? 1 : 0));
+    }
+    return steps;
+  }();
+  /// kAbove[15 - s + i] is where boundary i goes after symbol s: 0xFFFF where i > s, else 0.
+  static constexpr std::array<std::uint16_t, 2 * kMaxSymbols> kAbove = [] {
+    std::array<std::uint16_t, 2 * kMaxSymbols> goals{};
+    for (std::size_t i = kMaxSymbols; i < goals.size(); ++i) goals[i] = 0xFFFF;
+    return goals;
+  }();
+
+  /// [i]: probability of the symbols below i, out of 0xFFFF; never decreases with i.
+  alignas(16) std::array<std::uint16_t, kMaxSymbols> cumulative_;
+  std::uint8_t count_ = 0;
+};
+
+/// The distribution a symbol is coded with: the mean of two models, scaled so that every symbol has a
+/// frequency of at least 4 out of 1 << 15.
+class SymbolMixture {
+ public:
   struct Interval {
     std::uint32_t symbol, low, high;
   };
 
-  /// Starts with `symbol_count` (2 to 16) equally likely symbols.
-  explicit AdaptiveSymbol(int symbol_count = kMaxSymbols) {
-    for (int i = 0; i < kMaxSymbols; ++i) {
-      const int boundary = std::min(i, symbol_count);
-      fast_[static_cast<std::size_t>(i)] = slow_[static_cast<std::size_t>(i)] =
-          static_cast<std::uint16_t>(0xFFFF * boundary / symbol_count);
+  SymbolMixture(const AdaptiveSymbol& a, const AdaptiveSymbol& b) {
+    for (std::size_t half = 0; half < 2; ++half) {
+#if defined(__SSE2__)
+      const __m128i lanes_a =
+          _mm_load_si128(reinterpret_cast<const __m128i*>(a.cumulative_.data() + 8 * half));
+      const __m128i lanes_b =
+          _mm_load_si128(reinterpret_cast<const __m128i*>(b.cumulative_.data() + 8 * half));
+      const __m128i offsets = _mm_load_si128(reinterpret_cast<const __m128i*>(kOffsets.data() + 8 * half));
+      const __m128i mean = _mm_add_epi16(_mm_srli_epi16(lanes_a, 2), _mm_srli_epi16(lanes_b, 2));
+      const __m128i scaled = _mm_add_epi16(_mm_sub_epi16(mean, _mm_srli_epi16(mean, 9)), offsets);
+      _mm_store_si128(reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half), scaled);
+#else
+      for (std::size_t i = 8 * half; i < 8 * half + 8; ++i) {
+        const unsigned mean = (a.cumulative_[i] >> 2) + (b.cumulative_[i] >> 2);
+        cumulative_[i] = static_cast<std::uint16_t>(mean - (mean >> 9) + kOffsets[i]);
+      }
+#endif
     }
+    cumulative_[AdaptiveSymbol::kMaxSymbols] = 1u << kProbabilityBits;
   }
 
-  /// Sum of the frequencies of all symbols below `symbol` (0 to 16), out of 1 << 15. Every symbol has a frequency of
-  /// at least 4.
+  /// Sum of the frequencies of all symbols below `symbol` (0 to 16).
   std::uint32_t cumulative(std::uint32_t symbol) const {
-    if (symbol == kMaxSymbols) return 1u << 15;
-    const std::uint32_t mean = (std::uint32_t{fast_[symbol]} + slow_[symbol]) >> 2;
-    return mean - (mean >> 9) + 4 * symbol;
+    return cumulative_[symbol];
   }
 
   /// The symbol whose interval holds `target`, which is below 1 << 15.
   Interval find(std::uint32_t target) const {
+#if defined(__SSE2__)
+    const __m128i wanted = _mm_set1_epi16(static_cast<short>(target));
+    const auto* lanes = reinterpret_cast<const __m128i*>(cumulative_.data());
+    const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(_mm_load_si128(lanes), wanted),
+                                          _mm_cmpgt_epi16(_mm_load_si128(lanes + 1), wanted));
+    const auto mask = static_cast<std::uint32_t>(_mm_movemask_epi8(above)) | 0x10000u;
+    const auto symbol = static_cast<std::uint32_t>(std::countr_zero(mask)) - 1;
+#else
     std::uint32_t symbol = 0;
-    for (std::uint32_t i = 1; i < kMaxSymbols; ++i) symbol += cumulative(i) <= target ? 1 : 0;
-    return {symbol, cumulative(symbol), cumulative(symbol + 1)};
-  }
-
-  void adapt(std::uint32_t symbol) {
-    const int slow_rate = std::min(4 + count_ / 8, 7);
-    for (std::uint32_t i = 1; i < kMaxSymbols; ++i) {
-      const std::uint16_t goal = i > symbol ? 0xFFFF : 0;
-      fast_[i] = step(fast_[i], goal, 4);
-      slow_[i] = step(slow_[i], goal, slow_rate);
-    }
-    if (count_ < 24) ++count_;
+    for (std::size_t i = 1; i < AdaptiveSymbol::kMaxSymbols; ++i) symbol += cumulative_[i] <= target ? 1 : 0;
+#endif
+    return {symbol, cumulative_[symbol], cumulative_[symbol + 1]};
   }
 
  private:
-  /// Moves towards 0 or 0xFFFF by 2^-rate of the way, rounding the move down.
-  static std::uint16_t step(std::uint16_t value, std::uint16_t goal, int rate) {
-    const std::uint16_t distance = value ^ goal;
-    return static_cast<std::uint16_t>(goal ^ static_cast<std::uint16_t>(distance - (distance >> rate)));
-  }
+  /// 4 i: the smallest frequency of each symbol, summed.
+  alignas(16) static constexpr std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> kOffsets = {
+      0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60};
 
-  alignas(16) std::array<std::uint16_t, kMaxSymbols> fast_;
-  alignas(16) std::array<std::uint16_t, kMaxSymbols> slow_;
-  int count_ = 0;
+  alignas(16) std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols + 1> cumulative_;
 };
 
 }  // namespace tvg

@@ -1,31 +1,37 @@
 #pragma once
+#include "entropy/adaptive_models.hpp"
+
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "entropy/adaptive_models.hpp"
-
-// The arithmetic coder (format-spec §6.1) with the same call on both sides: `code(model, value)` writes the value and
-// returns it when encoding, ignores the argument and returns the value read when decoding. Code above this layer is
-// written once, as a template over the coder, and so cannot fall out of step.
+// The arithmetic coder (format-spec §6.1) with the same call on both sides: `code(model, value)` writes the
+// value and returns it when encoding, ignores the argument and returns the value read when decoding. Code
+// above this layer is written once, as a template over the coder, and so cannot fall out of step.
 namespace tvg {
 
-/// Bits of the probability scale: frequencies of a model add up to 1 << kProbabilityBits.
-inline constexpr int kProbabilityBits = 15;
-
-/// Writes symbols. `range` stays in [2^31, 2^32) after every symbol, so that a frequency is never rounded by more
-/// than 2^-16 of itself.
+/// Writes symbols. `range` stays in [2^31, 2^32) after every symbol, so that a frequency is never rounded by
+/// more than 2^-16 of itself.
 class RangeEncoder {
  public:
   static constexpr bool kDecoding = false;
 
   /// Codes one symbol of an adaptive alphabet and adapts the model.
   std::uint32_t code(AdaptiveSymbol& model, std::uint32_t symbol) {
-    const std::uint32_t low = model.cumulative(symbol);
-    encode(low, model.cumulative(symbol + 1) - low);
+    encode(SymbolMixture(model, model), symbol);
     model.adapt(symbol);
+    return symbol;
+  }
+
+  /// Codes one symbol with the mean of two different models and adapts both.
+  std::uint32_t code(AdaptiveSymbol& a, AdaptiveSymbol& b, std::uint32_t symbol) {
+    encode(SymbolMixture(a, b), symbol);
+    a.adapt(symbol);
+    b.adapt(symbol);
     return symbol;
   }
 
@@ -47,21 +53,28 @@ class RangeEncoder {
     return value;
   }
 
+  /// The symbols that follow belong to this coordinate: of interest to who counts bits.
+  void begin_coordinate(std::size_t /*axis*/) {}
+
   /// Ends the stream and returns its bytes; the encoder is then empty, ready for another stream.
   std::vector<std::uint8_t> finish();
 
  private:
+  void encode(const SymbolMixture& mixture, std::uint32_t symbol) {
+    const std::uint32_t low = mixture.cumulative(symbol);
+    encode(low, mixture.cumulative(symbol + 1) - low);
+  }
   void encode(std::uint32_t cumulative, std::uint32_t frequency);
   void put_byte();
 
-  std::uint64_t low_ = 0;           ///< 32 bits below the point, `pending_` bits (and a carry) above it
+  std::uint64_t low_ = 0;  ///< 32 bits below the point, `pending_` bits (and a carry) above it
   std::uint32_t range_ = 0xFFFFFFFFu;
-  int pending_ = 0;                 ///< bits settled but for a carry, not yet in bytes_
+  int pending_ = 0;  ///< bits settled but for a carry, not yet in bytes_
   std::vector<std::uint8_t> bytes_;
 };
 
-/// Reads symbols from bytes it does not own. It never reads past their end: zero bits follow the last byte, and
-/// finished() tells afterwards whether exactly these bytes are what an encoder would have written.
+/// Reads symbols from bytes it does not own. It never reads past their end: zero bits follow the last byte,
+/// and finished() tells afterwards whether exactly these bytes are what an encoder would have written.
 class RangeDecoder {
  public:
   static constexpr bool kDecoding = true;
@@ -69,11 +82,16 @@ class RangeDecoder {
   explicit RangeDecoder(std::span<const std::uint8_t> bytes) : bytes_(bytes) { refill(); }
 
   std::uint32_t code(AdaptiveSymbol& model, std::uint32_t /*ignored*/ = 0) {
-    const std::uint32_t unit = range_ >> kProbabilityBits;
-    const AdaptiveSymbol::Interval interval = model.find(target(unit));
-    consume(unit, interval.low, interval.high - interval.low);
-    model.adapt(interval.symbol);
-    return interval.symbol;
+    const std::uint32_t symbol = decode(SymbolMixture(model, model));
+    model.adapt(symbol);
+    return symbol;
+  }
+
+  std::uint32_t code(AdaptiveSymbol& a, AdaptiveSymbol& b, std::uint32_t /*ignored*/ = 0) {
+    const std::uint32_t symbol = decode(SymbolMixture(a, b));
+    a.adapt(symbol);
+    b.adapt(symbol);
+    return symbol;
   }
 
   bool code(AdaptiveBit& model, bool /*ignored*/ = false) {
@@ -97,13 +115,29 @@ class RangeDecoder {
     return value;
   }
 
-  /// True once more bits were used than the bytes hold, or no encoder can have written them: what is decoded from here on is meaningless.
+  void begin_coordinate(std::size_t /*axis*/) {}
+
+  /// Bits used so far, with the fraction that the range tells.
+  double used_bits() const {
+    return 8.0 * static_cast<double>(next_) - available_ + 32 - std::log2(static_cast<double>(range_));
+  }
+
+  /// True once more bits were used than the bytes hold, or no encoder can have written them: what is decoded
+  /// from here on is meaningless.
   bool overrun() const { return overrun_ || (targets_ >> kProbabilityBits) != 0; }
 
-  /// After the last symbol: true when the stream ends exactly here, in the one form the encoder writes (§6.1).
+  /// After the last symbol: true when the stream ends exactly here, in the one form the encoder writes
+  /// (§6.1).
   bool finished() const;
 
  private:
+  std::uint32_t decode(const SymbolMixture& mixture) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    const SymbolMixture::Interval interval = mixture.find(target(unit));
+    consume(unit, interval.low, interval.high - interval.low);
+    return interval.symbol;
+  }
+
   /// Where in the probability scale the code value lies.
   std::uint32_t target(std::uint32_t unit) {
     const std::uint32_t quotient = static_cast<std::uint32_t>(window_ >> 32) / unit;
@@ -124,12 +158,39 @@ class RangeDecoder {
   void refill();
 
   std::span<const std::uint8_t> bytes_;
-  std::size_t next_ = 0;        ///< bytes taken into the window, counting imagined zero bytes after the end
-  std::uint64_t window_ = 0;    ///< upper 32 bits: code value minus low; below them the bits that follow
-  int available_ = 0;           ///< bits of the window that are filled
+  std::size_t next_ = 0;      ///< bytes taken into the window, counting imagined zero bytes after the end
+  std::uint64_t window_ = 0;  ///< upper 32 bits: code value minus low; below them the bits that follow
+  int available_ = 0;         ///< bits of the window that are filled
   std::uint32_t range_ = 0xFFFFFFFFu;
-  std::uint32_t targets_ = 0;   ///< all targets or-ed: a bit above the scale marks an impossible code value
+  std::uint32_t targets_ = 0;  ///< all targets or-ed: a bit above the scale marks an impossible code value
   bool overrun_ = false;
+};
+
+/// A RangeDecoder that keeps account of the bits each coordinate takes.
+class MeteredRangeDecoder : public RangeDecoder {
+ public:
+  using RangeDecoder::RangeDecoder;
+
+  void begin_coordinate(std::size_t axis) {
+    settle();
+    axis_ = axis;
+  }
+  /// [axis]: bits since the start.
+  std::array<double, 3> bits() {
+    settle();
+    return bits_;
+  }
+
+ private:
+  void settle() {
+    const double now = used_bits();
+    bits_[axis_] += now - settled_;
+    settled_ = now;
+  }
+
+  std::array<double, 3> bits_{};
+  std::size_t axis_ = 0;
+  double settled_ = 0;
 };
 
 }  // namespace tvg

@@ -32,7 +32,7 @@ const char* error_name(ErrorCode code);
 /// An error as a value: nothing in the library throws across its public interface.
 struct Error {
   ErrorCode code = ErrorCode::kMalformed;
-  std::string message;                       ///< one sentence: what is wrong and, where known, what would be right
+  std::string message;  ///< one sentence: what is wrong and, where known, what would be right
   std::optional<std::uint64_t> byte_offset;  ///< where in the stream, counted from its first byte
   std::optional<std::uint64_t> frame;        ///< the first frame concerned, counted from 0
   const char* section = "";                  ///< section of format-spec/tvg.md that the bytes break, or ""

@@ -11,7 +11,8 @@
 
 namespace tvg {
 
-/// Key-value pairs in UTF-8. Reserved keys: `fps` ("30", "30000/1001"), `name`, `units` ("m", "cm", ...), `up` ("y", "z").
+/// Key-value pairs in UTF-8. Reserved keys: `fps` ("30", "30000/1001"), `name`, `units` ("m", "cm", ...),
+/// `up` ("y", "z").
 using Metadata = std::map<std::string, std::string>;
 
 /// Positions of one frame: float32 [vertex][xyz], 3 * vertex_count values.

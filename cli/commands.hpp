@@ -1,0 +1,21 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+// Each subcommand adds itself to the tool and runs when CLI11 has parsed its options. A command ends by returning, or by
+// throwing ToolError.
+namespace tvg::cli {
+
+// Commands that make streams: encoder/.
+void add_encode_command(CLI::App& tool);
+void add_join_command(CLI::App& tool);
+
+// Commands that read streams: decoder/.
+void add_decode_command(CLI::App& tool);
+void add_info_command(CLI::App& tool);
+void add_verify_command(CLI::App& tool);
+void add_compare_command(CLI::App& tool);
+
+}  // namespace tvg::cli

@@ -1,0 +1,37 @@
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+#include <iostream>
+
+#include "cli/commands.hpp"
+#include "cli/tool_error.hpp"
+
+int main(int argc, char** argv) {
+  using namespace tvg::cli;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is an I/O error like another
+
+  CLI::App tool("Compresses, inspects and restores time-variant geometry (.tvg).", "tvg");
+  tool.set_version_flag("--version", TVG_VERSION);
+  tool.require_subcommand(1);
+  tool.footer("Exit status: 0 fine, 1 usage, 2 I/O, 3 invalid input file, 4 other failure.");
+  add_encode_command(tool);
+  add_decode_command(tool);
+  add_info_command(tool);
+  add_verify_command(tool);
+  add_compare_command(tool);
+  add_join_command(tool);
+
+  try {
+    tool.parse(argc, argv);
+    return static_cast<int>(ExitStatus::kSuccess);
+  } catch (const CLI::ParseError& error) {
+    const bool asked_for_help = tool.exit(error) == 0;
+    return static_cast<int>(asked_for_help ? ExitStatus::kSuccess : ExitStatus::kUsage);
+  } catch (const ToolError& error) {
+    std::cerr << "tvg: " << error.what() << '\n';
+    return static_cast<int>(error.status());
+  } catch (const std::exception& error) {
+    std::cerr << "tvg: " << error.what() << '\n';
+    return static_cast<int>(ExitStatus::kOther);
+  }
+}

@@ -1,0 +1,28 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tvg::cli {
+
+/// A progress bar on standard error: drawn only when that is a terminal, and not after --quiet. It is redrawn a few
+/// times a second at most and erased in the end.
+class ProgressBar {
+ public:
+  ProgressBar(std::string label, bool quiet);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  /// `done` of `total` frames; without a total only the count is shown.
+  void update(std::uint64_t done, std::optional<std::uint64_t> total);
+
+ private:
+  std::string label_;
+  bool visible_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace tvg::cli

@@ -1,0 +1,29 @@
+# What `cmake --install` writes: both libraries and their headers, a CMake package (find_package(tvg), targets
+# tvg::decoder and tvg::encoder) and pkg-config files (tvg-decoder, tvg-encoder).
+include(CMakePackageConfigHelpers)
+
+set(tvg_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tvg)
+
+install(TARGETS tvg_decoder tvg_encoder EXPORT tvg_targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/libcodec/include/tvg DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  COMPONENT library)
+install(EXPORT tvg_targets FILE tvgTargets.cmake NAMESPACE tvg:: DESTINATION ${tvg_package_folder}
+  COMPONENT library)
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tvgConfig.cmake.in ${PROJECT_BINARY_DIR}/tvgConfig.cmake
+  INSTALL_DESTINATION ${tvg_package_folder})
+# Before 1.0 a minor version may break its users.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tvgConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tvgConfig.cmake ${PROJECT_BINARY_DIR}/tvgConfigVersion.cmake
+  DESTINATION ${tvg_package_folder} COMPONENT library)
+
+# The prefix is written relative to the .pc file, so that an installed tree can be moved.
+file(RELATIVE_PATH tvg_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+foreach(half decoder encoder)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/tvg-${half}.pc.in ${PROJECT_BINARY_DIR}/tvg-${half}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/tvg-${half}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    COMPONENT library)
+endforeach()

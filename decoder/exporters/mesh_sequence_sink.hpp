@@ -1,0 +1,41 @@
+#pragma once
+#include "cli/atomic_file.hpp"
+#include "cli/frame_pattern.hpp"
+#include "cli/mesh_format.hpp"
+#include "decoder/exporters/frame_sink.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvg::cli {
+
+/// One mesh file per frame; connectivity may change between frames. A frame's file is complete and in place
+/// when the next frame begins.
+class MeshSequenceSink final : public FrameSink {
+ public:
+  /// `path` is a pattern or a plain name; the latter is kept where one frame comes.
+  MeshSequenceSink(const std::string& path, MeshFormat format, const SinkOptions& options);
+
+  void begin_mesh(const Mesh& mesh, const Metadata& metadata,
+                  std::optional<std::uint64_t> frame_count) override;
+  void write_frame(std::span<const float> positions) override;
+  void finish() override;
+  const std::vector<std::string>& files() const override { return files_; }
+  std::vector<std::string> notes() const override;
+
+ private:
+  void finish_file(const std::string& path);
+
+  std::string plain_name_;  // empty where the user gave a pattern
+  FramePattern pattern_;
+  MeshFormat format_;
+  SinkOptions options_;
+  Mesh mesh_;
+  std::string object_name_;
+  std::unique_ptr<AtomicFile> last_;  // the frame written last, not in place yet
+  std::vector<std::string> files_;
+};
+
+}  // namespace tvg::cli

@@ -1,0 +1,21 @@
+#pragma once
+#include "cli/atomic_file.hpp"
+#include "cli/mesh_format.hpp"
+
+#include <span>
+#include <string>
+
+#include <tvg/mesh.hpp>
+
+namespace tvg::cli {
+
+/// First bytes of every OBJ file that is written here.
+inline constexpr const char* kObjMark = "# TVG\n";
+
+/// Writes one frame ([vertex][xyz]) of a mesh. In text formats each number is the shortest that reads back as
+/// the same float32. PLY and STL are binary; STL holds the corners of faces only: the order of vertices, and
+/// vertices without a face, are lost. `name` is the object's name in OBJ, where it is not empty.
+void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span<const float> positions,
+                const std::string& name);
+
+}  // namespace tvg::cli

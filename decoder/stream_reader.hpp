@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tvg/decoder.hpp>
+
+namespace tvg::cli {
+
+/// Feeds a decoder from a file or from standard input ("-"), a piece at a time. Failures to open or read are ToolErrors
+/// (kIo) that name the file.
+class StreamReader {
+ public:
+  explicit StreamReader(const std::string& path);
+  ~StreamReader();
+  StreamReader(const StreamReader&) = delete;
+  StreamReader& operator=(const StreamReader&) = delete;
+
+  /// The next event other than kNeedBytes.
+  Decoder::Event next();
+
+  Decoder& decoder() { return decoder_; }
+  /// The path, or "standard input".
+  const std::string& name() const { return name_; }
+  /// Bytes of the file; nothing where the input is not a file.
+  std::optional<std::uint64_t> size() const { return size_; }
+  /// The index at the file's end, where the input is a file and has one that can be read.
+  std::optional<std::vector<IndexEntry>> read_index();
+  /// Goes on at the mesh or GOP chunk at `offset`, whose first frame has the number `frame`.
+  void jump(std::uint64_t offset, std::uint64_t frame);
+
+ private:
+  std::size_t read_some(void* target, std::size_t size);
+  std::vector<std::uint8_t> read_at(std::uint64_t offset, std::size_t size);
+
+  std::string name_;
+  int descriptor_;
+  std::optional<std::uint64_t> size_;
+  std::vector<std::uint8_t> piece_;
+  Decoder decoder_;
+};
+
+/// "50-99" or "50": a run of frames for people.
+std::string frame_run(std::uint64_t first, std::uint64_t count);
+
+}  // namespace tvg::cli

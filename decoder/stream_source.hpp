@@ -1,0 +1,32 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include <tvg/sequence.hpp>
+
+#include "decoder/stream_reader.hpp"
+
+namespace tvg::cli {
+
+/// The frames of a .tvg as a source. A damaged stream, or one with more than one mesh, yields an error.
+class StreamSource final : public FrameSource {
+ public:
+  /// Reads up to the mesh. Throws ToolError when the stream cannot be opened or has no mesh.
+  explicit StreamSource(const std::string& path);
+
+  const Mesh& mesh() const override { return mesh_; }
+  Metadata metadata() const override { return reader_->decoder().metadata(); }
+  std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
+  Result<bool> read_frame(std::span<float> positions) override;
+  bool rewind() override;
+
+ private:
+  void open();
+
+  std::string path_;
+  std::unique_ptr<StreamReader> reader_;
+  Mesh mesh_;
+  std::optional<std::uint64_t> frame_count_;
+};
+
+}  // namespace tvg::cli

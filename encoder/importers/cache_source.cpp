@@ -1,0 +1,268 @@
+#include "encoder/importers/cache_source.hpp"
+
+#include "encoder/importers/bytes.hpp"
+#include "encoder/importers/import_error.hpp"
+#include "encoder/importers/input_file.hpp"
+#include "encoder/importers/mesh_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fmt/format.h>
+#include <vector>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr std::size_t kPc2HeaderSize = 32;
+constexpr std::size_t kMddHeaderSize = 8;  // without the times
+constexpr char kPc2Signature[12] = {'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
+constexpr std::size_t kPositionSize = 3 * sizeof(float);
+
+struct CacheLayout {
+  bool is_pc2 = false;  // else MDD, all of it big-endian
+  std::uint64_t points = 0;
+  std::uint64_t frames = 0;
+  std::uint64_t data_offset = 0;  // of the first frame
+
+  std::uint64_t frame_size() const { return points * kPositionSize; }
+  std::uint64_t file_size() const { return data_offset + frames * frame_size(); }
+};
+
+/// Watches the times of an MDD cache go by and finds their rate without keeping them.
+class FrameRate {
+ public:
+  void add(double time) {
+    if (count_ == 0) first_ = time;
+    if (count_ == 1) step_ = time - first_;
+    const double expected = first_ + static_cast<double>(count_) * step_;
+    // A thousandth of a step, and what float32 rounds away.
+    const double tolerance = 1e-3 * step_ + 1e-6 * std::abs(expected);
+    if (!(std::abs(time - expected) <= tolerance)) even_ = false;
+    last_ = time;
+    ++count_;
+  }
+
+  /// "30", "30000/1001" or the like; empty where the times are uneven or count frames instead of seconds.
+  std::string text() const {
+    if (!even_ || count_ < 2) return "";
+    const double rate = static_cast<double>(count_ - 1) / (last_ - first_);
+    if (!(rate > 1.001 && rate < 1000)) return "";
+    const double whole = std::round(rate);
+    if (std::abs(rate - whole) < 1e-4 * rate) return fmt::format("{:.0f}", whole);
+    const double ntsc = std::round(rate * 1.001);
+    if (std::abs(rate - ntsc / 1.001) < 1e-4 * rate) return fmt::format("{:.0f}/1001", 1000 * ntsc);
+    return fmt::format("{:.0f}/1000", std::round(1000 * rate));
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  double first_ = 0;
+  double step_ = 0;
+  double last_ = 0;
+  bool even_ = true;
+};
+
+class CacheSource final : public SkippableSource {
+ public:
+  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, const std::string& mesh_file)
+      : file_(path),
+        mesh_(std::move(mesh)),
+        metadata_(std::move(metadata)),
+        mesh_file_(mesh_file),
+        named_pc2_(has_suffix(path, ".pc2")) {
+    read_header();
+  }
+
+  const Mesh& mesh() const override { return mesh_; }
+  Metadata metadata() const override { return metadata_; }
+  std::optional<std::uint64_t> frame_count() const override { return layout_.frames; }
+  Result<bool> read_frame(std::span<float> positions) override;
+  Status skip_frames(std::uint64_t count) override;
+  bool rewind() override;
+
+ private:
+  void read_header();
+  void read_pc2_header(std::span<char> header);
+  void read_mdd_times();
+  void check_counts(std::int64_t points, std::int64_t frames) const;
+  void check_size() const;
+  bool read_positions(std::span<float> positions);
+  [[noreturn]] void fail(const std::string& what) const {
+    throw ImportError(ErrorCode::kInvalidInput, fmt::format("{}: {}", file_.name(), what));
+  }
+  [[noreturn]] void fail_at_end(std::uint64_t size, const std::string& place) const {
+    throw ImportError(ErrorCode::kTruncated,
+                      fmt::format("{} ends at byte {} inside {}", file_.name(), size, place));
+  }
+  std::string promise() const {
+    return fmt::format("its header promises {} frames = {} bytes", layout_.frames, layout_.file_size());
+  }
+
+  InputFile file_;
+  Mesh mesh_;
+  Metadata metadata_;
+  std::string mesh_file_;
+  bool named_pc2_;
+  CacheLayout layout_;
+  std::uint64_t next_ = 0;  // frame
+};
+
+void CacheSource::read_header() {
+  std::array<char, kPc2HeaderSize> header{};
+  std::size_t got = file_.read(header.data(), kMddHeaderSize);
+  if (got == 0) fail("the file is empty");
+  layout_.is_pc2 = std::memcmp(header.data(), kPc2Signature, got) == 0;
+  if (got == kMddHeaderSize && layout_.is_pc2) {
+    got += file_.read(header.data() + got, kPc2HeaderSize - got);
+  }
+  const std::size_t needed = layout_.is_pc2 ? kPc2HeaderSize : kMddHeaderSize;
+  if (got < needed) fail_at_end(got, fmt::format("its header of {} bytes", needed));
+  if (const auto content = recognize_content({header.data(), got}); content && !layout_.is_pc2) {
+    throw ImportError(ErrorCode::kInvalidInput, fmt::format("{} is {}, not a cache", file_.name(), *content));
+  }
+  if (!layout_.is_pc2 && named_pc2_) fail("a PC2 cache begins with POINTCACHE2 and a zero byte");
+  if (layout_.is_pc2) {
+    read_pc2_header(header);
+    check_size();
+  } else {
+    layout_.frames = load<std::uint32_t>(header.data(), true);
+    layout_.points = load<std::uint32_t>(header.data() + 4, true);
+    check_counts(load<std::int32_t>(header.data() + 4, true), load<std::int32_t>(header.data(), true));
+    layout_.data_offset = kMddHeaderSize + sizeof(float) * layout_.frames;
+    check_size();
+    read_mdd_times();
+  }
+}
+
+void CacheSource::read_pc2_header(std::span<char> header) {
+  if (std::memcmp(header.data(), kPc2Signature, sizeof kPc2Signature) != 0) {
+    fail("a PC2 cache begins with POINTCACHE2 and a zero byte");
+  }
+  const auto version = load<std::int32_t>(header.data() + 12, false);
+  if (version != 1) fail(fmt::format("PC2 version {}, but only version 1 is known", version));
+  layout_.points = load<std::uint32_t>(header.data() + 16, false);
+  layout_.frames = load<std::uint32_t>(header.data() + 28, false);
+  layout_.data_offset = kPc2HeaderSize;
+  check_counts(load<std::int32_t>(header.data() + 16, false), load<std::int32_t>(header.data() + 28, false));
+}
+
+void CacheSource::check_counts(std::int64_t points, std::int64_t frames) const {
+  const char* format = layout_.is_pc2 ? "PC2" : "MDD";
+  if (points != static_cast<std::int64_t>(mesh_.vertex_count)) {
+    fail(fmt::format(
+        "read as {}, its header says {} points per frame and {} frames, but {} has {} vertices: a cache "
+        "needs the mesh it was made with",
+        format, points, frames, mesh_file_, mesh_.vertex_count));
+  }
+  if (frames < 0) fail(fmt::format("read as {}, its header says {} frames", format, frames));
+  if (frames == 0) fail("it holds no frames");
+}
+
+void CacheSource::check_size() const {
+  if (!file_.size()) return;
+  const std::uint64_t size = *file_.size();
+  if (size < layout_.data_offset) fail_at_end(size, "its table of times; " + promise());
+  if (size < layout_.file_size()) {
+    const std::uint64_t frame = (size - layout_.data_offset) / layout_.frame_size();
+    fail_at_end(size, fmt::format("frame {}; {}", frame, promise()));
+  }
+  if (size > layout_.file_size()) {
+    fail(fmt::format("{} bytes follow byte {}, where the file should end: {}", size - layout_.file_size(),
+                     layout_.file_size(), promise()));
+  }
+}
+
+void CacheSource::read_mdd_times() {
+  std::array<char, 4096> block;
+  FrameRate rate;
+  for (std::uint64_t done = 0; done < layout_.frames;) {
+    const auto wanted = std::min<std::uint64_t>(block.size() / sizeof(float), layout_.frames - done);
+    const std::size_t got = file_.read(block.data(), wanted * sizeof(float));
+    if (got < wanted * sizeof(float)) {
+      fail_at_end(kMddHeaderSize + done * sizeof(float) + got, "its table of times; " + promise());
+    }
+    for (std::size_t i = 0; i < wanted; ++i)
+      rate.add(double{load<float>(block.data() + sizeof(float) * i, true)});
+    done += wanted;
+  }
+  if (const std::string fps = rate.text(); !fps.empty()) metadata_.emplace("fps", fps);
+}
+
+Result<bool> CacheSource::read_frame(std::span<float> positions) {
+  try {
+    return read_positions(positions);
+  } catch (const ImportError& error) {
+    return error.as_value();
+  }
+}
+
+bool CacheSource::read_positions(std::span<float> positions) {
+  if (next_ == layout_.frames) {
+    char extra = 0;
+    if (!file_.size() && file_.read(&extra, 1) != 0) {
+      fail(
+          fmt::format("bytes follow byte {}, where the data should end: {}", layout_.file_size(), promise()));
+    }
+    return false;
+  }
+  const std::size_t got = file_.read(positions.data(), positions.size_bytes());
+  if (got < positions.size_bytes()) {
+    fail_at_end(layout_.data_offset + next_ * layout_.frame_size() + got,
+                fmt::format("frame {}; {}", next_, promise()));
+  }
+  const bool big_endian = !layout_.is_pc2;
+  if (big_endian != (std::endian::native == std::endian::big)) {
+    for (float& value : positions) value = byte_swapped(value);
+  }
+  const std::size_t bad = find_non_finite(positions);
+  if (bad < positions.size()) {
+    fail(fmt::format("frame {}, vertex {} has a coordinate that is NaN or infinite (byte {})", next_, bad / 3,
+                     layout_.data_offset + next_ * layout_.frame_size() + bad * sizeof(float)));
+  }
+  ++next_;
+  return true;
+}
+
+Status CacheSource::skip_frames(std::uint64_t count) {
+  try {
+    if (file_.size()) {
+      next_ += count;
+      file_.seek(layout_.data_offset + next_ * layout_.frame_size());
+      return {};
+    }
+    std::array<char, std::size_t{1} << 14> block;
+    const std::uint64_t start = layout_.data_offset + next_ * layout_.frame_size();
+    const std::uint64_t length = count * layout_.frame_size();
+    for (std::uint64_t done = 0; done < length;) {
+      const auto wanted = std::min<std::uint64_t>(block.size(), length - done);
+      const std::size_t got = file_.read(block.data(), wanted);
+      done += got;
+      if (got < wanted) {
+        fail_at_end(start + done,
+                    fmt::format("frame {}; {}", next_ + done / layout_.frame_size(), promise()));
+      }
+    }
+    next_ += count;
+    return {};
+  } catch (const ImportError& error) {
+    return error.as_value();
+  }
+}
+
+bool CacheSource::rewind() {
+  if (!file_.size()) return false;
+  next_ = 0;
+  return skip_frames(0).ok();
+}
+
+}  // namespace
+
+std::unique_ptr<SkippableSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
+                                            const std::string& mesh_file) {
+  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file);
+}
+
+}  // namespace tvg::cli

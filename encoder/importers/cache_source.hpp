@@ -1,0 +1,18 @@
+#pragma once
+#include "encoder/importers/frame_range.hpp"
+
+#include <memory>
+#include <string>
+
+namespace tvg::cli {
+
+/// Opens a vertex cache, PC2 or MDD (told apart by the signature that PC2 has), whose frames are read from
+/// disk one at a time. "-" is standard input, which cannot be rewound. `mesh` gives the connectivity and
+/// `metadata` what else is known; `mesh_file` names the mesh in messages. An MDD cache with evenly spaced
+/// times adds its `fps`; a PC2 cache does not, because programs disagree on what its sample rate means.
+/// Throws ImportError: kIo, kInvalidInput (the vertex counts differ, no frames, more bytes than promised),
+/// kTruncated (fewer bytes than promised).
+std::unique_ptr<SkippableSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
+                                            const std::string& mesh_file);
+
+}  // namespace tvg::cli

@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <tvg/sequence.hpp>
+
+namespace tvg::cli {
+
+/// Frames first to last, both included, counted from 0.
+struct FrameRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+/// Throws ToolError (kUsage) unless the range lies within `frame_count` frames of `input`.
+void check_frame_range(const FrameRange& range, std::uint64_t frame_count, const std::string& input);
+
+/// A source that can pass over frames without decoding them.
+class SkippableSource : public FrameSource {
+ public:
+  /// Passes over `count` frames, which are within the sequence.
+  virtual Status skip_frames(std::uint64_t count) = 0;
+};
+
+/// The frames of `range` of another source; the range lies within its frames.
+class FrameRangeSource final : public FrameSource {
+ public:
+  FrameRangeSource(std::unique_ptr<SkippableSource> source, const FrameRange& range)
+      : source_(std::move(source)), range_(range) {}
+
+  const Mesh& mesh() const override { return source_->mesh(); }
+  Metadata metadata() const override { return source_->metadata(); }
+  std::optional<std::uint64_t> frame_count() const override { return range_.last - range_.first + 1; }
+  Result<bool> read_frame(std::span<float> positions) override;
+  bool rewind() override;
+
+ private:
+  std::unique_ptr<SkippableSource> source_;
+  FrameRange range_;
+  bool skipped_ = false;      // whether the frames before the range have been passed over
+  std::uint64_t frames_ = 0;  // frames of the range read so far
+};
+
+}  // namespace tvg::cli

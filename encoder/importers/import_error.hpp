@@ -1,0 +1,24 @@
+#pragma once
+#include "cli/tool_error.hpp"
+
+#include <string>
+
+#include <tvg/error.hpp>
+
+namespace tvg::cli {
+
+/// A user's file that cannot be read. The message names the file and the place. Thrown inside the importers
+/// and by open_source(); read_frame() returns it as a value with the same code.
+class ImportError : public ToolError {
+ public:
+  ImportError(ErrorCode code, const std::string& message);
+
+  ErrorCode code() const { return code_; }
+  /// The same as a value.
+  Error as_value() const { return {code_, what(), {}, {}, ""}; }
+
+ private:
+  ErrorCode code_;
+};
+
+}  // namespace tvg::cli

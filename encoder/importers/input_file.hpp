@@ -1,0 +1,42 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace tvg::cli {
+
+/// An open file, pipe or device; "-" is standard input. Failures are ImportError (kIo) and name the file.
+class InputFile {
+ public:
+  explicit InputFile(const std::string& path);
+  ~InputFile();
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+
+  /// As messages call it: the path, or "standard input".
+  const std::string& name() const { return name_; }
+  /// Bytes of a regular file; nothing for a pipe.
+  std::optional<std::uint64_t> size() const { return size_; }
+  /// Reads up to `size` bytes; fewer only at the end of the file.
+  std::size_t read(void* data, std::size_t size);
+  /// Goes to a byte of a regular file.
+  void seek(std::uint64_t offset);
+
+ private:
+  [[noreturn]] void fail(const char* what, int error_number) const;
+
+  std::string name_;
+  int descriptor_ = -1;
+  std::optional<std::uint64_t> size_;
+};
+
+/// Reads a whole file into `bytes`, whose capacity is reused. An empty file is an ImportError
+/// (kInvalidInput).
+void read_file(const std::string& path, std::string& bytes);
+
+/// What the first bytes of a file say it is ("a PNG image"), for the formats that users confuse; nothing for
+/// others.
+std::optional<std::string> recognize_content(const std::string& bytes);
+
+}  // namespace tvg::cli

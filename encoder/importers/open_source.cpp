@@ -1,0 +1,130 @@
+#include "encoder/importers/open_source.hpp"
+
+#include "cli/frame_pattern.hpp"
+#include "encoder/importers/cache_source.hpp"
+#include "encoder/importers/import_error.hpp"
+#include "encoder/importers/mesh_sequence.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace tvg::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKnownFormats =
+    "meshes are .obj, .ply, .off or .stl, caches are .pc2 or .mdd, sequences are folders or patterns such as "
+    "walk_%04d.obj";
+
+bool is_cache(const std::string& path) {
+  return path == "-" || has_suffix(path, ".pc2") || has_suffix(path, ".mdd");
+}
+
+[[noreturn]] void fail_usage(const std::string& message) {
+  throw ToolError(ExitStatus::kUsage, message);
+}
+
+void check_known(const std::string& path) {
+  std::error_code ignored;
+  if (is_cache(path) || fs::is_directory(path, ignored)) return;
+  if (has_suffix(path, ".tvg")) {
+    throw ImportError(ErrorCode::kInvalidInput,
+                      fmt::format("{} is a TVG stream already; `tvg decode` turns it into meshes", path));
+  }
+  if (mesh_format(path)) return;
+  if (!fs::exists(path, ignored) && !parse_frame_pattern(path)) {
+    throw ImportError(ErrorCode::kIo, fmt::format("cannot open {}: there is no such file", path));
+  }
+  throw ImportError(ErrorCode::kInvalidInput,
+                    fmt::format("{} has a suffix that is not known: {}", path, kKnownFormats));
+}
+
+/// The mesh that probably goes with a cache: the one beside it with the same name.
+std::string mesh_beside(const std::string& cache) {
+  for (const char* suffix : {".obj", ".ply", ".off", ".stl"}) {
+    const std::string candidate = fs::path(cache).replace_extension(suffix).string();
+    std::error_code ignored;
+    if (fs::is_regular_file(candidate, ignored)) return candidate;
+  }
+  return "";
+}
+
+[[noreturn]] void fail_cache_alone(const std::string& cache) {
+  const std::string name = cache == "-" ? "standard input" : cache;
+  const std::string beside = cache == "-" ? "" : mesh_beside(cache);
+  if (!beside.empty()) {
+    fail_usage(fmt::format("{} is a cache of positions and has no faces: add its mesh, which may be {}", name,
+                           beside));
+  }
+  const std::string example =
+      cache == "-" ? "mesh.obj" : fs::path(cache).filename().replace_extension(".obj").string();
+  fail_usage(fmt::format("{} is a cache of positions and has no faces: add its mesh, a file such as {}", name,
+                         example));
+}
+
+OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string& cache,
+                                 const std::optional<FrameRange>& frames) {
+  std::error_code ignored;
+  if (fs::is_directory(mesh_path, ignored) ||
+      (parse_frame_pattern(mesh_path) && !fs::exists(mesh_path, ignored))) {
+    fail_usage(fmt::format("{} goes with one mesh file, and {} is a sequence", cache, mesh_path));
+  }
+  WeldedMesh welded = read_welded_mesh(mesh_path);
+  Metadata metadata;
+  if (!welded.mesh.name.empty()) metadata.emplace("name", welded.mesh.name);
+  Mesh mesh{static_cast<std::uint32_t>(welded.mesh.vertex_count()), std::move(welded.mesh.faces)};
+  auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path);
+  if (!frames) return {std::move(source), std::move(welded.notes)};
+  check_frame_range(*frames, source->frame_count().value(), cache == "-" ? "standard input" : cache);
+  return {std::make_unique<FrameRangeSource>(std::move(source), *frames), std::move(welded.notes)};
+}
+
+OpenedSource open_meshes(const std::string& input, const std::optional<FrameRange>& frames) {
+  std::vector<std::string> files;
+  std::error_code ignored;
+  if (fs::is_directory(input, ignored)) {
+    files = find_folder_files(input);
+  } else if (auto numbered = find_pattern_files(input)) {
+    files = std::move(*numbered);
+  } else {
+    files = {input};
+  }
+  if (frames) {
+    check_frame_range(*frames, files.size(), input);
+    // The range picks files before the first is read: connectivity may differ outside it.
+    files.erase(files.begin() + static_cast<std::ptrdiff_t>(frames->last) + 1, files.end());
+    files.erase(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(frames->first));
+  }
+  WeldedMesh first = read_welded_mesh(files[0]);
+  std::vector<std::string> notes = std::move(first.notes);
+  const std::uint64_t first_frame = frames ? frames->first : 0;
+  return {std::make_unique<MeshSequenceSource>(std::move(files), std::move(first), first_frame),
+          std::move(notes)};
+}
+
+}  // namespace
+
+OpenedSource open_source(const SourceSpec& spec) {
+  std::string mesh;
+  std::string cache;
+  for (const std::string& input : spec.inputs) {
+    check_known(input);
+    std::string& place = is_cache(input) ? cache : mesh;
+    if (!place.empty()) {
+      if (is_cache(input))
+        fail_usage(fmt::format("{} and {} are both caches: one stream takes one", place, input));
+      fail_usage(
+          fmt::format("{} and {} are both meshes: name a sequence by its folder or by a pattern such as "
+                      "walk_%04d.obj",
+                      place, input));
+    }
+    place = input;
+  }
+  if (mesh.empty() && cache.empty()) fail_usage(fmt::format("no input is given: {}", kKnownFormats));
+  if (mesh.empty()) fail_cache_alone(cache);
+  return cache.empty() ? open_meshes(mesh, spec.frames) : open_mesh_and_cache(mesh, cache, spec.frames);
+}
+
+}  // namespace tvg::cli

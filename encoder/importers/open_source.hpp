@@ -1,0 +1,36 @@
+#pragma once
+#include "encoder/importers/frame_range.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tvg/sequence.hpp>
+
+namespace tvg::cli {
+
+/// What a user names as input.
+struct SourceSpec {
+  /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, MDD, or "-" for a cache on standard
+  /// input); or a sequence of mesh files, as a folder or a pattern ("walk_%04d.obj", "walk_####.obj"); or one
+  /// mesh file.
+  std::vector<std::string> inputs;
+  /// The frames wanted, counted from 0 whatever the numbers in the files' names; all where absent.
+  std::optional<FrameRange> frames;
+};
+
+struct OpenedSource {
+  std::unique_ptr<FrameSource> source;
+  std::vector<std::string>
+      notes;  ///< for the user, e.g. "chicken.obj: 120 polygons triangulated to 240 triangles"
+};
+
+/// Opens what a user names. One frame is in memory at a time. The mesh of a sequence is that of its first
+/// wanted frame; the positions in a mesh file beside a cache are not used. Throws ToolError: kUsage (inputs
+/// that do not fit together, a frame range outside the sequence), kIo (cannot be opened or read),
+/// kInvalidInput (content). Later frames are checked as they are read: read_frame() returns kTruncated,
+/// kInvalidInput or kIo, and its message names the file and the place.
+OpenedSource open_source(const SourceSpec& spec);
+
+}  // namespace tvg::cli

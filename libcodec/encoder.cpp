@@ -1,0 +1,232 @@
+#include "container/layout.hpp"
+#include "container/stream_writer.hpp"
+#include "gop_encoder.hpp"
+#include "mesh_encoder.hpp"
+#include "quantization/bounding_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <future>
+#include <new>
+#include <string>
+
+#include <tvg/encoder.hpp>
+
+namespace tvg {
+
+namespace {
+
+Error invalid_argument(std::string message) {
+  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
+}
+
+Status check_options(const EncodeOptions& options) {
+  if (options.fine_bits < kMinBits || options.fine_bits > kMaxBits || options.coarse_bits < kMinBits ||
+      options.coarse_bits > options.fine_bits) {
+    return invalid_argument(
+        "bits must be 1 to 24, and those of unimportant vertices at most those of important ones");
+  }
+  if (options.step && !(std::isfinite(*options.step) && *options.step > 0)) {
+    return invalid_argument("the step must be a positive length in the mesh's units");
+  }
+  if (!(options.importance.share >= 0 && options.importance.share <= 1)) {
+    return invalid_argument("the share of important vertices must lie between 0 and 1");
+  }
+  if (!(options.importance.alpha >= 0 && options.importance.alpha <= 1)) {
+    return invalid_argument("alpha must lie between 0 and 1");
+  }
+  if (options.gop_frames == 0 || options.gop_frames > (1u << 16)) {
+    return invalid_argument("a GOP must have 1 to 65536 frames");
+  }
+  return {};
+}
+
+Status check_mesh(const Mesh& mesh) {
+  const auto invalid = [](std::string message) {
+    return Error{ErrorCode::kInvalidInput, std::move(message), {}, {}, ""};
+  };
+  if (mesh.vertex_count == 0) return invalid("the mesh has no vertices");
+  if (mesh.vertex_count >= 0x80000000u || mesh.faces.size() >= 0x2AAAAAAAu) {
+    return invalid("the mesh has more vertices or faces than a stream can hold");
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    for (const std::uint32_t corner : mesh.faces[f]) {
+      if (corner >= mesh.vertex_count) {
+        return invalid("face " + std::to_string(f) + " refers to vertex " + std::to_string(corner) +
+                       ", the mesh has " + std::to_string(mesh.vertex_count));
+      }
+    }
+  }
+  return {};
+}
+
+/// Reads the next frame and refuses what no lattice can hold. False at the end.
+Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint64_t number) {
+  const Result<bool> read = source.read_frame(frame);
+  if (!read || !*read) return read;
+  const auto bad = std::find_if_not(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); });
+  if (bad == frame.end()) return true;
+  const auto i = static_cast<std::size_t>(bad - frame.begin());
+  return Error{ErrorCode::kInvalidInput,
+               "vertex " + std::to_string(i / 3) + " has a coordinate that is infinite or not a number",
+               {},
+               number,
+               ""};
+}
+
+StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
+  StreamLimits limits;
+  limits.vertices = mesh.vertex_count;
+  limits.faces = static_cast<std::uint32_t>(mesh.faces.size());
+  limits.frames_per_gop = options.gop_frames;
+  // 64 bits per coordinate: more than the worst residual can take.
+  limits.packet_bytes = static_cast<std::uint32_t>(
+      std::min<std::uint64_t>(256 + 24 * std::uint64_t{mesh.vertex_count}, kMaxChunkLength));
+  limits.decoder_memory = decoder_memory_needed(limits);
+  return limits;
+}
+
+/// GOPs on their way: encoded by up to `threads` at a time, written in order.
+class GopQueue {
+ public:
+  GopQueue(StreamWriter& writer, unsigned threads, const EncodeProgress& progress,
+           std::optional<std::uint64_t> total)
+      : writer_(writer), threads_(std::max(1u, threads)), progress_(progress), total_(total) {}
+
+  Status add(GopInput input, const CodedMesh& mesh, const EncodeOptions& options,
+             const StreamLimits& limits) {
+    const auto frame_count = static_cast<std::uint32_t>(input.frames.size());
+    const auto policy = threads_ > 1 ? std::launch::async : std::launch::deferred;
+    pending_.push_back({frame_count, std::async(policy, [input = std::move(input), &mesh, &options, &limits] {
+                          return encode_gop(input, mesh, options, limits);
+                        })});
+    return pending_.size() < threads_ ? Status() : write_oldest();
+  }
+  Status finish() {
+    while (!pending_.empty()) {
+      if (Status status = write_oldest(); !status.ok()) return status;
+    }
+    return {};
+  }
+
+  std::uint64_t frames() const { return frames_; }
+  std::uint64_t gops() const { return gops_; }
+
+ private:
+  struct Pending {
+    std::uint32_t frame_count;
+    std::future<Result<std::vector<std::uint8_t>>> chunk;
+  };
+
+  Status write_oldest() {
+    Pending oldest = std::move(pending_.front());
+    pending_.pop_front();
+    const Result<std::vector<std::uint8_t>> chunk = oldest.chunk.get();
+    if (!chunk) return chunk.error();
+    if (Status status = writer_.write_gop_chunk(*chunk, oldest.frame_count); !status.ok()) return status;
+    frames_ += oldest.frame_count;
+    ++gops_;
+    if (progress_) progress_(frames_, total_);
+    return {};
+  }
+
+  StreamWriter& writer_;
+  unsigned threads_;
+  const EncodeProgress& progress_;
+  std::optional<std::uint64_t> total_;
+  std::deque<Pending> pending_;
+  std::uint64_t frames_ = 0;
+  std::uint64_t gops_ = 0;
+};
+
+/// The box of the whole sequence; leaves the source at its first frame. Empty when the source can be read
+/// only once.
+Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
+  if (!source.rewind()) return std::optional<BoundingBox>();
+  BoundingBox box;
+  FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
+  for (std::uint64_t number = 0;; ++number) {
+    const Result<bool> read = read_checked(source, frame, number);
+    if (!read) return read.error();
+    if (!*read) break;
+    box.extend(frame);
+  }
+  if (!source.rewind()) return Error{ErrorCode::kIo, "the input cannot be read a second time", {}, {}, ""};
+  return std::optional(box);
+}
+
+Status write_start(StreamWriter& writer, const StreamLimits& limits, const Metadata& metadata,
+                   Bytes mesh_payload) {
+  if (Status status = writer.write(kSignature); !status.ok()) return status;
+  if (Status status = writer.write(write_chunk(kHeadChunk, false, write_head(limits))); !status.ok())
+    return status;
+  if (!metadata.empty()) {
+    const std::vector<std::uint8_t> chunk = write_chunk(kMetadataChunk, true, write_metadata(metadata));
+    if (Status status = writer.write(chunk); !status.ok()) return status;
+  }
+  return writer.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh_payload));
+}
+
+/// The encoding pipeline: frames → GOPs → chunks.
+Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
+                                    const EncodeProgress& progress) {
+  const Result<std::optional<BoundingBox>> whole_box = scan_box(source);
+  if (!whole_box) return whole_box.error();
+
+  const StreamLimits limits = limits_for(source.mesh(), options);
+  EncodedMesh mesh = encode_mesh(source.mesh(), options.keep_vertex_order);
+  Metadata metadata = options.metadata;
+  metadata.merge(source.metadata());
+  StreamWriter writer(sink);
+  if (Status status = write_start(writer, limits, metadata, mesh.payload); !status.ok())
+    return status.error();
+
+  GopQueue queue(writer, options.threads, progress, source.frame_count());
+  std::uint64_t number = 0;
+  for (bool more = true; more;) {
+    GopInput gop;
+    gop.first_frame = options.first_frame + number;
+    BoundingBox gop_box;
+    while (gop.frames.size() < options.gop_frames) {
+      FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
+      const Result<bool> read = read_checked(source, frame, number);
+      if (!read) return read.error();
+      more = *read;
+      if (!more) break;
+      gop_box.extend(frame);
+      gop.frames.push_back(std::move(frame));
+      ++number;
+    }
+    if (gop.frames.empty()) break;
+    const Result<Lattice> lattice = lattice_over(*whole_box ? **whole_box : gop_box, options.fine_bits,
+                                                 options.coarse_bits, options.step);
+    if (!lattice) return lattice.error();
+    gop.lattice = *lattice;
+    if (Status status = queue.add(std::move(gop), mesh.coded, options, limits); !status.ok())
+      return status.error();
+  }
+  if (number == 0) return Error{ErrorCode::kInvalidInput, "the sequence has no frames", {}, {}, ""};
+  if (Status status = queue.finish(); !status.ok()) return status.error();
+  if (Status status = writer.write_end(); !status.ok()) return status.error();
+  return EncodeReport{queue.frames(), source.mesh().vertex_count, queue.gops(), writer.offset(), !*whole_box};
+}
+
+}  // namespace
+
+Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
+                            const EncodeProgress& progress) {
+  if (Status status = check_options(options); !status.ok()) return status.error();
+  if (Status status = check_mesh(source.mesh()); !status.ok()) return status.error();
+  try {
+    return encode_checked(source, options, sink, progress);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory,
+                 "there is not enough memory: use fewer frames per GOP or fewer threads",
+                 {},
+                 {},
+                 ""};
+  }
+}
+
+}  // namespace tvg

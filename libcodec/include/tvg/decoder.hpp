@@ -1,0 +1,161 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tvg/error.hpp>
+#include <tvg/mesh.hpp>
+#include <tvg/sequence.hpp>
+#include <tvg/stream.hpp>
+
+namespace tvg {
+
+/// What a caller lets a stream ask for. A stream that declares more in its head is refused before anything is
+/// allocated.
+struct DecoderLimits {
+  std::uint32_t vertices = 1u << 24;
+  std::uint32_t faces = 1u << 25;
+  std::uint32_t frames_per_gop = 1u << 16;
+  std::uint32_t packet_bytes = 1u << 29;
+  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
+};
+
+/// A run of frames that could not be decoded.
+struct Damage {
+  std::uint64_t first_frame = 0;  ///< position in the stream of the first frame lost
+  std::uint64_t frame_count = 0;  ///< frames lost; 0 when nobody can know how many
+  Error error;
+};
+
+/// The importance and resolution of the GOP being decoded.
+struct GopInfo {
+  std::uint64_t first_frame = 0;  ///< position in the stream
+  std::uint32_t frame_count = 0;
+  Predictor predictor = Predictor::kElp;
+  int fine_bits = 0;    ///< B2
+  int coarse_bits = 0;  ///< B1
+  std::array<double, 3> origin{};
+  double step = 0;                 ///< of the fine lattice, in the mesh's units
+  std::uint32_t flagged = 0;       ///< number of important vertices; all of them when the bits are equal
+  std::uint64_t bytes = 0;         ///< of the whole chunk
+  std::uint64_t header_bytes = 0;  ///< of the header packet without the flags
+  std::uint64_t flag_bytes = 0;
+};
+
+/// A chunk as it stands in the stream.
+struct ChunkInfo {
+  std::string type;          ///< four characters
+  std::uint64_t offset = 0;  ///< of its first byte
+  std::uint64_t bytes = 0;   ///< of header, payload and checksum
+};
+
+/// What the coded parts of the current mesh take.
+struct MeshInfo {
+  std::uint64_t connectivity_bytes = 0;
+  std::uint64_t order_bytes = 0;
+  bool keeps_vertex_order = true;  ///< frames come in the order of the encoder's input
+};
+
+/// Decodes a stream as its bytes arrive. Bytes go in with push(), in pieces of any size; poll() then says
+/// what they yield, one event at a time:
+///
+///   tvg::Decoder decoder;
+///   for (;;) {
+///     switch (decoder.poll()) {
+///       case Event::kNeedBytes: push() the next piece, or finish() when there is none; break;
+///       case Event::kFrame: decoder.copy_positions(...); break;
+///       case Event::kDamage: frames are missing: decoder.damage() says which and why; decoding goes on;
+///       break; case Event::kEnd: return; case Event::kError: the stream cannot be decoded any further:
+///       decoder.error(); return;
+///       ...
+///     }
+///   }
+///
+/// The decoder never throws, never reads outside what it was given, and holds at most what the stream's head
+/// declares.
+class Decoder {
+ public:
+  enum class Event {
+    kNeedBytes,  ///< nothing more to say until push() or finish()
+    kChunk,      ///< a chunk begins: chunk()
+    kHead,       ///< head() is valid
+    kMetadata,   ///< metadata() is valid
+    kMesh,       ///< mesh() is valid; frames that follow belong to it
+    kGop,        ///< gop() is valid
+    kFrame,      ///< a frame is decoded: frame_number(), copy_positions()
+    kDamage,     ///< frames are missing: damage(); decoding goes on
+    kEnd,        ///< the stream is complete
+    kError,      ///< error() says why decoding cannot go on
+  };
+
+  explicit Decoder(const DecoderLimits& limits = {});
+  ~Decoder();
+  Decoder(Decoder&&) noexcept;
+  Decoder& operator=(Decoder&&) noexcept;
+
+  /// Takes the next bytes of the stream; they are copied.
+  void push(std::span<const std::uint8_t> bytes);
+  /// Says that no bytes follow.
+  void finish();
+  /// Goes on elsewhere: the next bytes pushed begin a mesh or GOP chunk at `offset` in the stream, and the
+  /// next frame has the number `frame`, both as the index tells. What was pushed and not used is dropped;
+  /// head and mesh stay.
+  void jump(std::uint64_t offset, std::uint64_t frame);
+  /// Whether frame_bits() is measured; it takes time.
+  void measure_bits(bool on);
+  /// The next event. After kEnd and kError it is the same forever.
+  Event poll();
+
+  const StreamHead& head() const;
+  const Metadata& metadata() const;
+  /// Connectivity in the order frames are given in: the input's own unless the stream gave that up.
+  const Mesh& mesh() const;
+  const MeshInfo& mesh_info() const;
+  const ChunkInfo& chunk() const;
+  const GopInfo& gop() const;
+
+  /// Position of the current frame in the stream, counted from 0; frames that were lost count.
+  std::uint64_t frame_number() const;
+  /// Bytes of the current frame's packet with its size and checksum.
+  std::uint64_t frame_bytes() const;
+  /// Bits that the residuals of x, y and z take in the current frame's packet, after measure_bits(true).
+  const std::array<double, 3>& frame_bits() const;
+  /// Writes the current frame: vertex v's x, y, z as float32 at `positions` + v * `stride` bytes (at least
+  /// 12). The caller owns the buffer of vertex_count * stride bytes.
+  void copy_positions(void* positions, std::size_t stride = 12) const;
+  /// Writes the current frame's lattice indices, [vertex][xyz], each on its vertex's own lattice. 3 *
+  /// vertex_count values.
+  void copy_lattice(std::span<std::int32_t> indices) const;
+  /// Importance of each vertex in the current GOP, 0 or 1. vertex_count values.
+  void copy_flags(std::span<std::uint8_t> flags) const;
+
+  const Damage& damage() const;
+  const Error& error() const;
+  /// The stream's own index once kEnd was reached; empty when it had none.
+  const std::vector<IndexEntry>& index() const;
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+/// Size of the chunk that ends every stream and says where the index is.
+inline constexpr std::size_t kTailBytes = 28;
+
+struct ByteRange {
+  std::uint64_t offset = 0;
+  std::uint64_t size = 0;
+};
+
+/// Where the index chunk of a stream of `stream_size` bytes lies, from its last kTailBytes bytes. kMalformed when they
+/// are no tail: the stream is cut, or still being written.
+Result<ByteRange> locate_index(std::span<const std::uint8_t> tail, std::uint64_t stream_size);
+
+/// The entries of an index chunk, from all of its bytes.
+Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk);
+
+}  // namespace tvg

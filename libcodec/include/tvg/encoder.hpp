@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include <tvg/error.hpp>
+#include <tvg/sequence.hpp>
+#include <tvg/stream.hpp>
+
+namespace tvg {
+
+/// Which vertices of a GOP are important (Algorithm 1).
+struct Importance {
+  double share = 0.35;              ///< the share of vertices with the highest cost, 0 to 1
+  std::optional<double> threshold;  ///< instead: every vertex whose cost is above this
+  double alpha = 0.5;  ///< of CURV (Eq. 3): weight of the change of curvature against its mean, 0 to 1
+};
+
+struct EncodeOptions {
+  int fine_bits = 11;    ///< B2, 1 to 24: bits of important vertices
+  int coarse_bits = 11;  ///< B1, 1 to B2: bits of the others
+  /// Instead of B2: edge of a fine cell in the mesh's units. B2 is then what the bounding box needs, and B1
+  /// lies below it by fine_bits - coarse_bits.
+  std::optional<double> step;
+  Importance importance;  ///< of no effect when both lattices are the same
+  Predictor predictor = Predictor::kElp;
+  std::uint32_t gop_frames = 50;  ///< frames per GOP, at least 1
+  bool keep_vertex_order = true;
+  std::uint64_t first_frame = 0;  ///< number of the source's first frame in a longer sequence it was cut from
+  unsigned threads = 1;           ///< GOPs encoded at the same time; the bytes do not depend on it
+  Metadata metadata;              ///< added to what the source says
+};
+
+/// What encoding made, in bytes.
+struct EncodeReport {
+  std::uint64_t frames = 0;
+  std::uint32_t vertices = 0;
+  std::uint64_t gops = 0;
+  std::uint64_t bytes = 0;       ///< of the whole stream
+  bool box_of_each_gop = false;  ///< the source could be read only once, so each GOP has a lattice of its own
+};
+
+/// Takes the stream's bytes front to back. An error ends the encoding.
+using ByteSink = std::function<Status(std::span<const std::uint8_t>)>;
+/// Hears how far encoding is: frames written, and how many there will be if that is known.
+using EncodeProgress = std::function<void(std::uint64_t frames, std::optional<std::uint64_t> total)>;
+
+/// Encodes a sequence to a stream in one pass of writing. A source that can be rewound is read twice, first
+/// for the bounding box of the whole sequence. Memory is in proportion to `threads` GOPs. Errors:
+/// kInvalidArgument for options out of range, kInvalidInput for geometry that cannot be encoded, and what
+/// source and sink return.
+Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
+                            const EncodeProgress& progress = {});
+
+}  // namespace tvg

@@ -1,0 +1,99 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <tvg/error.hpp>
+#include <tvg/mesh.hpp>
+
+// How far a decoded sequence lies from its original (design: metrics). Frames are compared one at a time, so
+// that memory does not grow with the number of frames.
+namespace tvg {
+
+struct ComparisonSettings {
+  /// Measure the Hausdorff distance too; it costs several searches per vertex and frame.
+  bool hausdorff = false;
+  /// Measure it at every frame whose number is a multiple of this; at least 1.
+  std::uint32_t hausdorff_stride = 1;
+};
+
+/// Distances are in the mesh's units; `relative_*` are divided by `diagonal`.
+/// A relative figure is infinite where only its divisor is zero, and 0 where both are.
+struct ComparisonReport {
+  std::uint64_t frames = 0;  ///< frames compared; with none, all figures are 0 (snr_db infinite)
+  std::uint64_t vertices = 0;
+
+  /// The bounding box over all frames of the original: its longest side and its diagonal.
+  double extent = 0;
+  double diagonal = 0;
+
+  double max_coordinate_error = 0;  ///< largest |difference| of one coordinate
+  double max_vertex_distance = 0;   ///< largest distance between a vertex and its decoded self
+  double rms_coordinate_error = 0;  ///< root mean square over all coordinates of all frames
+  double rms_vertex_distance =
+      0;  ///< root mean square over all vertices of all frames: sqrt(3) times as large
+  double mean_coordinate_error = 0;  ///< mean |difference| of a coordinate
+
+  double relative_max_coordinate_error = 0;
+  double relative_max_vertex_distance = 0;
+  double relative_rms_coordinate_error = 0;
+  double relative_rms_vertex_distance = 0;
+
+  std::uint64_t worst_frame = 0;   ///< where max_vertex_distance is reached first
+  std::uint32_t worst_vertex = 0;  ///< the vertex there
+
+  /// The paper's signal to noise ratio, 20 log10(2^B / mean absolute error in lattice units), in dB. Infinite
+  /// for identical sequences, negative infinite where a sequence without extent has errors (both are null in
+  /// JSON).
+  double snr_db = 0;
+
+  /// 100 |A - A'|_F / |A - E(A)|_F, A the original's coordinates over all frames, E(A) the centroid in each
+  /// frame. 0 for identical sequences; infinite where every frame of the original is a single point and A'
+  /// differs.
+  double kg_percent = 0;
+
+  /// The paper's quadric error (Eq. 8): the sum, over the original's faces around a vertex, of the squared
+  /// distance of the decoded vertex from the face's plane; faces without area add nothing. In squared mesh
+  /// units.
+  double mean_quadric_error = 0;  ///< over all vertices of all frames
+  double max_quadric_error = 0;
+
+  /// Hausdorff distance between the surfaces, the largest over the frames measured: from every vertex in use
+  /// and every face's centroid of one to the nearest point of the other. Absent when it was not asked for, no
+  /// frame was measured, or the mesh has no faces.
+  std::optional<double> hausdorff;                      ///< the larger of the two directions
+  std::optional<double> relative_hausdorff;             ///< divided by `diagonal`
+  std::optional<double> hausdorff_original_to_decoded;  ///< one direction
+  std::optional<double> hausdorff_decoded_to_original;  ///< the other
+  std::uint64_t hausdorff_frames = 0;                   ///< frames it was measured at
+};
+
+/// Compares two sequences of the same mesh, frame by frame.
+class SequenceComparison {
+ public:
+  explicit SequenceComparison(const Mesh& mesh, const ComparisonSettings& settings = {});
+  ~SequenceComparison();
+  SequenceComparison(SequenceComparison&&) noexcept;
+  SequenceComparison& operator=(SequenceComparison&&) noexcept;
+
+  /// Takes the next frame of both sequences: float32 [vertex][xyz], 3 * vertex_count values each.
+  /// Fails with kInvalidArgument where a size or a setting is wrong, kInvalidInput where a position is not
+  /// finite or the mesh names a vertex it does not have; a frame that fails is not counted.
+  Status add_frame(std::span<const float> original, std::span<const float> decoded);
+
+  /// The figures over the frames taken so far.
+  ComparisonReport report() const;
+
+ private:
+  class Accumulator;
+  std::unique_ptr<Accumulator> accumulator_;
+};
+
+/// Bits per coordinate of a file of so many bytes; 0 without coordinates.
+double bits_per_coordinate(std::uint64_t bytes, std::uint64_t vertices, std::uint64_t frames);
+
+/// Bits per vertex and frame (bpvf): three times as much.
+double bits_per_vertex_and_frame(std::uint64_t bytes, std::uint64_t vertices, std::uint64_t frames);
+
+}  // namespace tvg

@@ -1,0 +1,82 @@
+#include "measure/curvature.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numeric>
+
+namespace tvg {
+
+OneRings::OneRings(const Mesh& mesh) : begin_(mesh.vertex_count + std::size_t{1}, 0) {
+  const auto for_each_corner = [&mesh](auto&& visit) {
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      const auto [a, b, c] = mesh.faces[f];
+      visit(a, f);
+      if (b != a) visit(b, f);
+      if (c != a && c != b) visit(c, f);
+    }
+  };
+  for_each_corner([this](std::uint32_t v, std::uint32_t) { ++begin_[v + std::size_t{1}]; });
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  faces_.resize(begin_.back());
+  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+  for_each_corner([&](std::uint32_t v, std::uint32_t f) { faces_[next[v]++] = f; });
+}
+
+std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
+                                     std::span<const float> positions) {
+  const auto position = [&positions](std::uint32_t v) {
+    return Eigen::Map<const Eigen::Vector3f>(positions.data() + 3 * std::size_t{v}).cast<double>();
+  };
+  std::vector<Eigen::Vector3d> area_normals(mesh.faces.size());  // length: twice the area
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto& [a, b, c] = mesh.faces[f];
+    const Eigen::Vector3d origin = position(a);
+    area_normals[f] = (position(b) - origin).cross(position(c) - origin);
+  }
+  std::vector<double> areas(mesh.faces.size());
+  for (std::size_t f = 0; f < areas.size(); ++f) areas[f] = area_normals[f].norm();
+
+  std::vector<double> curvature(mesh.vertex_count, 0.0);
+  for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    double total_area = 0;
+    for (const std::uint32_t f : rings.faces_at(v)) {
+      normal += area_normals[f];
+      total_area += areas[f];
+    }
+    const double length = normal.norm();
+    if (!(total_area > 0)) continue;
+    // a_f (1 - n_i . n_f) / 2 summed over f: the face normals' lengths are their areas. Opposite faces can
+    // cancel to no normal at all; every face then counts as perpendicular to it.
+    double sum = 0;
+    for (const std::uint32_t f : rings.faces_at(v)) {
+      const double along = length > 0 ? normal.dot(area_normals[f]) / length : 0.0;
+      sum += (areas[f] - along) / 2;
+    }
+    curvature[v] = std::max(0.0, sum / total_area);
+  }
+  return curvature;
+}
+
+std::vector<double> curvature_criterion(const CriterionInput& input) {
+  const OneRings rings(input.mesh);
+  const std::size_t vertex_count = input.mesh.vertex_count;
+  const auto frame_count = static_cast<double>(input.frames.size());
+  std::vector<std::vector<double>> curvature;  // [frame][vertex]
+  std::vector<double> mean(vertex_count, 0.0);
+  for (const FramePositions& frame : input.frames) {
+    curvature.push_back(vertex_curvature(input.mesh, rings, frame));
+    for (std::size_t v = 0; v < vertex_count; ++v) mean[v] += curvature.back()[v] / frame_count;
+  }
+  std::vector<double> value(vertex_count, 0.0);
+  for (std::size_t v = 0; v < vertex_count; ++v) {
+    double deviation = 0;
+    for (const std::vector<double>& frame : curvature)
+      deviation += std::abs(frame[v] - mean[v]) / frame_count;
+    value[v] = input.alpha * deviation + (1 - input.alpha) * mean[v];
+  }
+  return value;
+}
+
+}  // namespace tvg

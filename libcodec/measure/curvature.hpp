@@ -1,0 +1,33 @@
+#pragma once
+#include "measure/criterion.hpp"
+
+#include <span>
+#include <vector>
+
+namespace tvg {
+
+/// Which faces meet at each vertex. A face counts once at each of its distinct corners.
+class OneRings {
+ public:
+  explicit OneRings(const Mesh& mesh);
+
+  std::span<const std::uint32_t> faces_at(std::uint32_t vertex) const {
+    return std::span(faces_).subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
+  }
+
+ private:
+  std::vector<std::size_t> begin_;  ///< [vertex], and one past the last
+  std::vector<std::uint32_t> faces_;
+};
+
+/// Curvature at every vertex of one frame (the paper's Eq. 1), in [0, 1]: the area-weighted mean over the
+/// faces f around vertex i of (1 - n_i . n_f) / 2, with n_i the normalized area-weighted sum of their
+/// normals. Faces without area add nothing; a vertex without any usable face has curvature 0.
+std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
+                                     std::span<const float> positions);
+
+/// CURV (Eq. 3): alpha * mean absolute deviation + (1 - alpha) * mean, over the frames, of each vertex's
+/// curvature.
+std::vector<double> curvature_criterion(const CriterionInput& input);
+
+}  // namespace tvg

@@ -1,0 +1,25 @@
+#include "measure/importance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace tvg {
+
+std::vector<std::uint8_t> flag_highest_share(std::span<const double> cost, double share) {
+  const double wanted = std::round(std::clamp(share, 0.0, 1.0) * static_cast<double>(cost.size()));
+  std::vector<std::uint32_t> ranked(cost.size());
+  std::iota(ranked.begin(), ranked.end(), 0u);
+  std::stable_sort(ranked.begin(), ranked.end(), [&cost](auto a, auto b) { return cost[a] > cost[b]; });
+  std::vector<std::uint8_t> flags(cost.size(), 0);
+  for (std::size_t rank = 0; rank < static_cast<std::size_t>(wanted); ++rank) flags[ranked[rank]] = 1;
+  return flags;
+}
+
+std::vector<std::uint8_t> flag_above(std::span<const double> cost, double threshold) {
+  std::vector<std::uint8_t> flags(cost.size());
+  std::transform(cost.begin(), cost.end(), flags.begin(), [=](double c) { return c > threshold ? 1 : 0; });
+  return flags;
+}
+
+}  // namespace tvg

@@ -1,0 +1,26 @@
+#pragma once
+#include "connectivity/connectivity.hpp"
+#include "container/byte_io.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include <tvg/decoder.hpp>
+#include <tvg/error.hpp>
+#include <tvg/mesh.hpp>
+#include <tvg/stream.hpp>
+
+namespace tvg {
+
+/// A mesh as the coding of frames needs it, on either side.
+struct CodedMesh {
+  Mesh mesh;                         ///< in the order frames are given in
+  std::vector<Gate> gates;           ///< [traversal index]
+  std::vector<std::uint32_t> order;  ///< [traversal index] = vertex of `mesh`
+  MeshInfo info;
+};
+
+/// Decodes the payload of a mesh chunk (format-spec §4.3).
+Result<CodedMesh> decode_mesh(Bytes payload, const StreamLimits& limits);
+
+}  // namespace tvg

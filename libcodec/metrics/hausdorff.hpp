@@ -1,0 +1,17 @@
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include <tvg/mesh.hpp>
+
+namespace tvg {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+/// The largest distance from a sample of the surface (faces, from) to the surface (faces, to): exact for
+/// these samples, every vertex that a face uses and every face's centroid. `faces` must not be empty, its
+/// indices valid.
+double directed_hausdorff(std::span<const Face> faces, const Points& from, const Points& to);
+
+}  // namespace tvg

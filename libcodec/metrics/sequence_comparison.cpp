@@ -1,0 +1,231 @@
+#include "metrics/hausdorff.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <tvg/metrics.hpp>
+
+namespace tvg {
+namespace {
+
+using Eigen::Vector3d;
+
+double ratio(double value, double divisor) {
+  if (value == 0) return 0;
+  return divisor > 0 ? value / divisor : std::numeric_limits<double>::infinity();
+}
+
+Error failure(ErrorCode code, std::string message, std::uint64_t frame) {
+  Error error;
+  error.code = code;
+  error.message = std::move(message);
+  error.frame = frame;
+  return error;
+}
+
+void load(std::span<const float> values, Points& points) {
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    points[v] = Vector3d(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
+  }
+}
+
+}  // namespace
+
+class SequenceComparison::Accumulator {
+ public:
+  Accumulator(const Mesh& mesh, const ComparisonSettings& settings)
+      : mesh_(mesh),
+        settings_(settings),
+        original_(mesh.vertex_count),
+        decoded_(mesh.vertex_count),
+        quadric_(mesh.vertex_count) {
+    for (const Face& face : mesh_.faces) {
+      for (const std::uint32_t v : face) mesh_is_valid_ = mesh_is_valid_ && v < mesh_.vertex_count;
+    }
+  }
+
+  Status add_frame(std::span<const float> original, std::span<const float> decoded) {
+    const Status checked = check(original, decoded);
+    if (!checked.ok()) return checked;
+    load(original, original_);
+    load(decoded, decoded_);
+    add_distances();
+    add_spread();
+    add_quadrics();
+    if (settings_.hausdorff && !mesh_.faces.empty() && frames_ % settings_.hausdorff_stride == 0)
+      add_hausdorff();
+    ++frames_;
+    return {};
+  }
+
+  ComparisonReport report() const;
+
+ private:
+  Status check(std::span<const float> original, std::span<const float> decoded) const {
+    const std::size_t expected = std::size_t{3} * mesh_.vertex_count;
+    if (settings_.hausdorff_stride == 0) {
+      return failure(ErrorCode::kInvalidArgument, "the stride of the Hausdorff distance must be at least 1",
+                     frames_);
+    }
+    if (original.size() != expected || decoded.size() != expected) {
+      return failure(ErrorCode::kInvalidArgument,
+                     "a frame of this mesh has " + std::to_string(expected) + " coordinates; got " +
+                         std::to_string(original.size()) + " (original) and " +
+                         std::to_string(decoded.size()) + " (decoded)",
+                     frames_);
+    }
+    if (!mesh_is_valid_) {
+      return failure(ErrorCode::kInvalidInput, "a face of the mesh names a vertex that does not exist",
+                     frames_);
+    }
+    const auto is_finite = [](float value) { return std::isfinite(value); };
+    for (const auto& frame : {original, decoded}) {
+      const auto bad = std::find_if_not(frame.begin(), frame.end(), is_finite);
+      if (bad == frame.end()) continue;
+      const auto vertex = static_cast<std::uint64_t>(bad - frame.begin()) / 3;
+      return failure(
+          ErrorCode::kInvalidInput,
+          "vertex " + std::to_string(vertex) + " has a coordinate that is infinite or not a number", frames_);
+    }
+    return {};
+  }
+
+  void add_distances() {
+    for (std::uint32_t v = 0; v < mesh_.vertex_count; ++v) {
+      const Vector3d difference = (original_[v] - decoded_[v]).cwiseAbs();
+      const double squared = difference.squaredNorm();
+      sum_absolute_ += difference.sum();
+      sum_squared_ += squared;
+      max_coordinate_ = std::max(max_coordinate_, difference.maxCoeff());
+      if (squared > max_squared_) {
+        max_squared_ = squared;
+        worst_frame_ = frames_;
+        worst_vertex_ = v;
+      }
+      box_low_ = box_low_.cwiseMin(original_[v]);
+      box_high_ = box_high_.cwiseMax(original_[v]);
+    }
+  }
+
+  void add_spread() {
+    Vector3d mean = Vector3d::Zero();
+    for (const Vector3d& point : original_) mean += point / static_cast<double>(original_.size());
+    for (const Vector3d& point : original_) spread_ += (point - mean).squaredNorm();
+  }
+
+  void add_quadrics() {
+    std::fill(quadric_.begin(), quadric_.end(), 0.0);
+    for (const auto& [a, b, c] : mesh_.faces) {
+      Vector3d normal = (original_[b] - original_[a]).cross(original_[c] - original_[a]);
+      const double size = normal.norm();
+      if (!(size > 0)) continue;
+      normal /= size;
+      for (const std::uint32_t v : {a, b, c}) {
+        // The original vertex lies in the plane itself, so its displacement has the wanted distance, and is
+        // small.
+        const double distance = normal.dot(decoded_[v] - original_[v]);
+        quadric_[v] += distance * distance;
+      }
+    }
+    for (const double error : quadric_) {
+      sum_quadric_ += error;
+      max_quadric_ = std::max(max_quadric_, error);
+    }
+  }
+
+  void add_hausdorff() {
+    forward_ = std::max(forward_, directed_hausdorff(mesh_.faces, original_, decoded_));
+    backward_ = std::max(backward_, directed_hausdorff(mesh_.faces, decoded_, original_));
+    ++hausdorff_frames_;
+  }
+
+  double signal_to_noise(double mean_error, double extent) const {
+    // With a lattice of B bits over the longest side, step = extent / 2^B, and an error of e is e / step
+    // lattice units. So 2^B / (mean e / step) = 2^B (extent / 2^B) / mean e = extent / mean e: B cancels.
+    if (mean_error == 0) return std::numeric_limits<double>::infinity();
+    return 20 * std::log10(extent / mean_error);
+  }
+
+  Mesh mesh_;
+  ComparisonSettings settings_;
+  bool mesh_is_valid_ = true;
+  Points original_, decoded_;    ///< the present frame
+  std::vector<double> quadric_;  ///< [vertex], of the present frame
+
+  std::uint64_t frames_ = 0;
+  double sum_absolute_ = 0, sum_squared_ = 0;
+  double max_coordinate_ = 0, max_squared_ = 0;
+  std::uint64_t worst_frame_ = 0;
+  std::uint32_t worst_vertex_ = 0;
+  double spread_ = 0;  ///< sum of squared distances from the frame's centroid
+  double sum_quadric_ = 0, max_quadric_ = 0;
+  double forward_ = 0, backward_ = 0;
+  std::uint64_t hausdorff_frames_ = 0;
+  Vector3d box_low_ = Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Vector3d box_high_ = Vector3d::Constant(-std::numeric_limits<double>::infinity());
+};
+
+ComparisonReport SequenceComparison::Accumulator::report() const {
+  ComparisonReport report;
+  report.frames = frames_;
+  report.vertices = mesh_.vertex_count;
+  report.snr_db = std::numeric_limits<double>::infinity();
+  const double points = static_cast<double>(frames_) * mesh_.vertex_count;
+  if (points == 0) return report;
+
+  const Vector3d sides = box_high_ - box_low_;
+  report.extent = sides.maxCoeff();
+  report.diagonal = sides.norm();
+  report.max_coordinate_error = max_coordinate_;
+  report.max_vertex_distance = std::sqrt(max_squared_);
+  report.rms_coordinate_error = std::sqrt(sum_squared_ / (3 * points));
+  report.rms_vertex_distance = std::sqrt(sum_squared_ / points);
+  report.mean_coordinate_error = sum_absolute_ / (3 * points);
+  report.relative_max_coordinate_error = ratio(report.max_coordinate_error, report.diagonal);
+  report.relative_max_vertex_distance = ratio(report.max_vertex_distance, report.diagonal);
+  report.relative_rms_coordinate_error = ratio(report.rms_coordinate_error, report.diagonal);
+  report.relative_rms_vertex_distance = ratio(report.rms_vertex_distance, report.diagonal);
+  report.worst_frame = worst_frame_;
+  report.worst_vertex = worst_vertex_;
+  report.snr_db = signal_to_noise(report.mean_coordinate_error, report.extent);
+  report.kg_percent = 100 * ratio(std::sqrt(sum_squared_), std::sqrt(spread_));
+  report.mean_quadric_error = sum_quadric_ / points;
+  report.max_quadric_error = max_quadric_;
+  report.hausdorff_frames = hausdorff_frames_;
+  if (hausdorff_frames_ > 0) {
+    report.hausdorff = std::max(forward_, backward_);
+    report.relative_hausdorff = ratio(*report.hausdorff, report.diagonal);
+    report.hausdorff_original_to_decoded = forward_;
+    report.hausdorff_decoded_to_original = backward_;
+  }
+  return report;
+}
+
+SequenceComparison::SequenceComparison(const Mesh& mesh, const ComparisonSettings& settings)
+    : accumulator_(std::make_unique<Accumulator>(mesh, settings)) {}
+SequenceComparison::~SequenceComparison() = default;
+SequenceComparison::SequenceComparison(SequenceComparison&&) noexcept = default;
+SequenceComparison& SequenceComparison::operator=(SequenceComparison&&) noexcept = default;
+
+Status SequenceComparison::add_frame(std::span<const float> original, std::span<const float> decoded) {
+  return accumulator_->add_frame(original, decoded);
+}
+
+ComparisonReport SequenceComparison::report() const {
+  return accumulator_->report();
+}
+
+double bits_per_coordinate(std::uint64_t bytes, std::uint64_t vertices, std::uint64_t frames) {
+  return bits_per_vertex_and_frame(bytes, vertices, frames) / 3;
+}
+
+double bits_per_vertex_and_frame(std::uint64_t bytes, std::uint64_t vertices, std::uint64_t frames) {
+  const double points = static_cast<double>(vertices) * static_cast<double>(frames);
+  return points > 0 ? 8.0 * static_cast<double>(bytes) / points : 0;
+}
+
+}  // namespace tvg

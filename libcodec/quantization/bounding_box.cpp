@@ -1,0 +1,56 @@
+#include "quantization/bounding_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace tvg {
+
+BoundingBox::BoundingBox() {
+  low_.fill(std::numeric_limits<double>::infinity());
+  high_.fill(-std::numeric_limits<double>::infinity());
+}
+
+void BoundingBox::extend(std::span<const float> positions) {
+  for (std::size_t i = 0; i < positions.size(); i += 3) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low_[axis] = std::min(low_[axis], double{positions[i + axis]});
+      high_[axis] = std::max(high_[axis], double{positions[i + axis]});
+    }
+  }
+}
+
+double BoundingBox::largest_extent() const {
+  return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
+}
+
+Result<Lattice> lattice_over(const BoundingBox& box, int fine_bits, int coarse_bits,
+                             std::optional<double> step) {
+  Lattice lattice{box.low(), 1.0, fine_bits, coarse_bits};
+  const double extent = box.largest_extent();
+  if (step) {
+    lattice.step = *step;
+    const double bits = std::max(1.0, std::ceil(std::log2(extent / *step)));
+    if (bits > kMaxBits) {
+      return Error{ErrorCode::kInvalidArgument,
+                   "the step is too small for this mesh: its box would need " +
+                       std::to_string(static_cast<long>(bits)) + " bits, " + std::to_string(kMaxBits) +
+                       " are possible",
+                   {},
+                   {},
+                   ""};
+    }
+    const int coarser = fine_bits - coarse_bits;
+    lattice.fine_bits = std::max(static_cast<int>(bits), kMinBits + coarser);
+    lattice.coarse_bits = lattice.fine_bits - coarser;
+  } else if (extent > 0) {
+    lattice.step = extent / static_cast<double>(std::int64_t{1} << fine_bits);
+  } else {
+    lattice.step =
+        std::max(1.0, std::abs(box.low()[0])) * 0x1p-24;  // all in one point: any small cell will do
+  }
+  return lattice;
+}
+
+}  // namespace tvg

@@ -1,0 +1,46 @@
+#!/bin/bash
+# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, bench, check) are installed.
+# Does nothing when all are there; as root it installs the missing ones; otherwise it lists them and fails.
+set -euo pipefail
+
+build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libcli11-dev libfmt-dev
+  nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev)
+bench=(libbenchmark-dev libdraco-dev libmeshoptimizer-dev libzstd-dev)
+check=(clang clang-format clang-tidy libclang-rt-14-dev)
+
+wanted=()
+for group in "$@"; do
+  case $group in
+    build) wanted+=("${build[@]}") ;;
+    bench) wanted+=("${bench[@]}") ;;
+    check) wanted+=("${check[@]}") ;;
+    *) echo "install_packages.sh: no group '$group' (build, bench, check)" >&2; exit 1 ;;
+  esac
+done
+
+if ! command -v dpkg-query >/dev/null; then
+  echo "This is not a Debian system: what is needed goes by these names there: ${wanted[*]}" >&2
+  exit 0
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [ "$status" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+if [ "$(id -u)" -ne 0 ]; then
+  echo "These packages are missing: ${missing[*]}" >&2
+  echo "Install them with: sudo apt-get install --no-install-recommends ${missing[*]}" >&2
+  exit 1
+fi
+
+echo "Installing ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+export DEBIAN_FRONTEND=noninteractive
+if ! { apt-get update -qq && apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  tail -n 20 "$log" >&2
+  exit 1
+fi

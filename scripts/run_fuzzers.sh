@@ -1,0 +1,27 @@
+#!/bin/bash
+# run_fuzzers.sh BUILD_FOLDER SECONDS: runs each fuzz target for so long, from its seeds (BUILD_FOLDER/seeds/TARGET)
+# and from what earlier runs found (BUILD_FOLDER/found/TARGET). A crash is kept in BUILD_FOLDER/crashes.
+set -euo pipefail
+build=$1
+seconds=$2
+mkdir -p "$build/crashes"
+
+for target in decoder_fuzz connectivity_fuzz; do
+  program=$(find "$build" -type f -name "$target" -perm -u+x | head -n 1)
+  if [ -z "$program" ]; then
+    echo "run_fuzzers.sh: no program $target in $build" >&2
+    exit 1
+  fi
+  found=$build/found/$target
+  seeds=$build/seeds/$target
+  mkdir -p "$found"
+  folders=("$found")
+  [ ! -d "$seeds" ] || folders+=("$seeds")
+  log=$build/$target.log
+  if ! "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="$build/crashes/$target-" "${folders[@]}" >"$log" 2>&1; then
+    tail -n 60 "$log" >&2
+    exit 1
+  fi
+  echo "$target: $(grep -o 'number_of_executed_units: *[0-9]*' "$log" | tr -dc 0-9) executions, no finding"
+done
