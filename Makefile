@@ -1,10 +1,11 @@
 # Short names for what one does most; the work is in CMakePresets.json and scripts/.
-# WERROR=ON makes warnings errors; FUZZ_SECONDS is how long each fuzz target runs.
+# WERROR=ON makes warnings errors; FUZZ_SECONDS is how long each fuzz target runs; LINT lists folders for clang-tidy.
 WERROR ?= OFF
 FUZZ_SECONDS ?= 60
+LINT ?= libcodec encoder decoder cli
 
 SOURCES = $(wildcard $(shell git ls-files --cached --others --exclude-standard "*.cpp" "*.hpp"))
-CONFIGURE = cmake --log-level=WARNING -DTVG_WARNINGS_AS_ERRORS=$(WERROR) --preset
+CONFIGURE = cmake -DTVG_WARNINGS_AS_ERRORS=$(WERROR) --preset
 # Progress is for terminals: elsewhere only what goes wrong is printed.
 define BUILD
 @if [ -t 1 ]; then cmake --build $(1) $(2); else cmake --build $(1) $(2) -- --quiet; fi
@@ -15,7 +16,7 @@ endef
 
 build:
 	@scripts/install_packages.sh build
-	@$(CONFIGURE) release
+	@$(CONFIGURE) release >/dev/null
 	$(call BUILD,build/release)
 
 demo: build
@@ -26,7 +27,7 @@ test: build
 
 bench:
 	@scripts/install_packages.sh build bench
-	@$(CONFIGURE) bench
+	@$(CONFIGURE) bench >/dev/null
 	$(call BUILD,build/bench,--target tvg_bench)
 	@build/bench/bench/tvg_bench
 
@@ -40,18 +41,18 @@ check-format:
 
 lint:
 	@scripts/install_packages.sh build check
-	@$(CONFIGURE) release
-	@scripts/run_tidy.sh build/release
+	@$(CONFIGURE) release >/dev/null
+	@scripts/run_tidy.sh build/release $(LINT)
 
 sanitize:
 	@scripts/install_packages.sh build
-	@$(CONFIGURE) asan-ubsan
+	@$(CONFIGURE) asan-ubsan >/dev/null
 	$(call BUILD,build/asan-ubsan)
 	@scripts/run_tests.sh build/asan-ubsan
 
 fuzz:
 	@scripts/install_packages.sh build check
-	@$(CONFIGURE) fuzz
+	@$(CONFIGURE) fuzz >/dev/null
 	$(call BUILD,build/fuzz)
 	@scripts/run_fuzzers.sh build/fuzz $(FUZZ_SECONDS)
 

@@ -168,7 +168,7 @@ std::vector<Vec3> resample(const std::vector<Vec3>& grid, std::uint32_t columns,
 
 Sequence make_cloth(const SequenceSize& size) {
   const auto rows = static_cast<std::uint32_t>(std::max(8.0, std::sqrt(size.vertices / 1.5) + 0.5));
-  const auto columns = static_cast<std::uint32_t>(rows * 1.5 + 0.5);
+  const auto columns = static_cast<std::uint32_t>(std::lround(rows * 1.5));
   Surface surface;
   for (std::uint32_t row = 0; row + 1 < rows; ++row) {
     for (std::uint32_t column = 0; column + 1 < columns; ++column) {

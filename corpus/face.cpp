@@ -131,7 +131,9 @@ class MaskBuilder {
   }
 
  private:
-  std::uint32_t row_of(double y) const { return static_cast<std::uint32_t>((y + 1) / 2 * (rows_ - 1) + 0.5); }
+  std::uint32_t row_of(double y) const {
+    return static_cast<std::uint32_t>(std::lround((y + 1) / 2 * (rows_ - 1)));
+  }
 
   MaskVertex grid_vertex(std::uint32_t row, std::uint32_t column) const {
     const double u = 2.0 * column / (columns_ - 1) - 1;
@@ -180,7 +182,7 @@ class MaskBuilder {
 
 Sequence make_face(const SequenceSize& size) {
   const auto columns = static_cast<std::uint32_t>(std::max(16.0, std::sqrt(size.vertices / 1.3) + 0.5));
-  const auto rows = static_cast<std::uint32_t>(columns * 1.3 + 0.5);
+  const auto rows = static_cast<std::uint32_t>(std::lround(columns * 1.3));
   const Mask mask = MaskBuilder(columns, rows).build();
   Sequence face;
   face.mesh = {static_cast<std::uint32_t>(mask.vertices.size()), mask.faces};

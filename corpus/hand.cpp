@@ -52,9 +52,9 @@ std::uint32_t palm_vertex(std::uint32_t front, std::uint32_t row, std::uint32_t 
 /// quad's corners in the finger's own frame: [corner]{across, front}.
 void extrude_finger(Cage& cage, const Finger& finger, std::size_t channel, std::array<std::uint32_t, 4> base,
                     const std::array<std::array<double, 2>, 4>& corner_signs) {
-  for (std::size_t ring = 0; ring < kRingAt.size(); ++ring) {
-    const double taper = 1.08 - 0.22 * kRingAt[ring];
-    const Vec3 centre = finger.base + kRingAt[ring] * finger.length * finger.direction;
+  for (const double ring_at : kRingAt) {
+    const double taper = 1.08 - 0.22 * ring_at;
+    const Vec3 centre = finger.base + ring_at * finger.length * finger.direction;
     std::array<std::uint32_t, 4> next{};
     for (std::size_t k = 0; k < 4; ++k) {
       const Vec3 p = centre + corner_signs[k][0] * finger.thickness * taper * finger.across;

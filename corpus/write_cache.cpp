@@ -46,7 +46,8 @@ void write_obj(const std::string& path, const Sequence& sequence) {
 }
 
 void write_pc2(const std::string& path, const Sequence& sequence) {
-  std::string bytes("POINTCACHE2", 12);
+  std::string bytes = "POINTCACHE2";
+  bytes.push_back('\0');
   put_word(bytes, 1);
   put_word(bytes, sequence.mesh.vertex_count);
   put_word(bytes, std::bit_cast<std::uint32_t>(0.0F));  // number of the first frame

@@ -5,7 +5,6 @@ namespace tvg {
 std::uint32_t Border::open(std::uint32_t from, std::uint32_t to, std::uint32_t across) {
   const auto id = static_cast<std::uint32_t>(edges_.size());
   edges_.push_back({from, to, across, id, id, true});
-  stack_.push_back(id);
   edge_at_[from] = id;
   if (edge_at_[to] == kNoEdge) edge_at_[to] = id;
   return id;
@@ -39,13 +38,9 @@ void Border::splice(std::uint32_t incoming, std::uint32_t known) {
   link(other, after_incoming);
 }
 
-std::uint32_t Border::take_last() {
-  while (!stack_.empty()) {
-    const std::uint32_t id = stack_.back();
-    stack_.pop_back();
-    if (edges_[id].open) return id;
-  }
-  return kNoEdge;
+std::uint32_t Border::last_open() {
+  while (!edges_.empty() && !edges_.back().open) edges_.pop_back();
+  return edges_.empty() ? kNoEdge : static_cast<std::uint32_t>(edges_.size() - 1);
 }
 
 }  // namespace tvg

@@ -17,8 +17,8 @@ struct BorderEdge {
   bool open;                     ///< false once it has left its loop
 };
 
-/// The border between coded and uncoded triangles: loops of open edges, and the queue that says which edge
-/// comes next. Every operation takes constant time (amortized).
+/// The border between coded and uncoded triangles: loops of open edges, each edge numbered by when it was
+/// opened. Every operation takes constant time (last_open: amortized).
 class Border {
  public:
   explicit Border(std::uint32_t vertex_count) : edge_at_(vertex_count, kNoEdge), degree_(vertex_count, 0) {}
@@ -57,17 +57,15 @@ class Border {
   /// becomes two.
   void splice(std::uint32_t incoming, std::uint32_t known);
 
-  /// Takes the edge to go on from, the last opened of those that are open (it stays in its loop). Every edge is handed
-  /// out once. Returns kNoEdge when none is open.
-  std::uint32_t take_last();
+  /// The open edge with the largest number, or kNoEdge when none is open. Numbers above it are given again.
+  std::uint32_t last_open();
 
   static constexpr std::uint32_t kMaxDegree = 8;
 
  private:
   std::vector<BorderEdge> edges_;
-  std::vector<std::uint32_t> edge_at_;   ///< [vertex]
-  std::vector<std::uint8_t> degree_;      ///< [vertex]
-  std::vector<std::uint32_t> stack_;    ///< edges in the order of opening; some have left their loops since
+  std::vector<std::uint32_t> edge_at_;  ///< [vertex]
+  std::vector<std::uint8_t> degree_;    ///< [vertex]
 };
 
 }  // namespace tvg

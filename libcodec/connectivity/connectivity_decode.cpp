@@ -26,7 +26,7 @@ Error connectivity_error(ErrorCode code, const char* message) {
 Result<Connectivity> decode_connectivity(std::span<const std::uint8_t> bytes, std::uint32_t vertex_count,
                                          std::uint32_t face_count) {
   const std::uint64_t elements = std::uint64_t{vertex_count} + face_count;
-  if (elements > kMaxElementsPerByte * bytes.size()) {
+  if (elements > kMaxElementsPerByte * bytes.size() || face_count > kMaxFaceCount) {
     return connectivity_error(ErrorCode::kLimitExceeded,
                               "more vertices and faces than the connectivity's bytes can hold");
   }

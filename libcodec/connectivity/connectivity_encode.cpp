@@ -44,7 +44,7 @@ class MeshGuide {
   }
 
   void opened(std::uint32_t edge, std::size_t side) {
-    half_edge_.resize(edge + 1);
+    if (edge >= half_edge_.size()) half_edge_.resize(edge + 1);
     half_edge_[edge] = following(static_cast<std::uint32_t>(side));
   }
 

@@ -13,8 +13,8 @@ struct EncodedConnectivity {
   std::vector<std::uint32_t> order;  ///< [traversal index] = vertex index in the mesh
 };
 
-/// Encodes the connectivity of any triangle soup whose indices are below its vertex count. Faces keep their
-/// winding, but neither their order nor their first corner. Cannot fail.
+/// Encodes the connectivity of any triangle soup of at most kMaxFaceCount faces whose indices are below its
+/// vertex count. Faces keep their winding, but neither their order nor their first corner. Cannot fail.
 EncodedConnectivity encode_connectivity(const Mesh& mesh);
 
 }  // namespace tvg

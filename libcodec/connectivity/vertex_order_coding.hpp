@@ -2,10 +2,10 @@
 #include "connectivity/connectivity.hpp"
 #include "entropy/range_coder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -93,54 +93,88 @@ class LengthModel {
   AdaptiveSymbol short_{16};
 };
 
-/// Codes an order in mode kNear. `order` is complete when encoding, and filled in when decoding. False when
-/// the stream is malformed.
-template <class Coder>
-bool code_near_order(Coder& coder, std::span<std::uint32_t> order, std::span<const Gate> gates) {
-  const auto count = static_cast<std::uint32_t>(gates.size());
-  IndexSet unused(count);
-  AdaptiveSymbol first_choice(4);
-  std::array<AdaptiveSymbol, 4> choices;
-  choices.fill(first_choice);
-  std::array<AdaptiveBit, 4> signs;
-  std::array<LengthModel, 4> lengths;
-  std::uint32_t choice = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::array<std::uint32_t, 4> near = {i > 0 ? i - 1 : kNoVertex, gates[i].n, gates[i].p, gates[i].o};
-    std::array<std::uint32_t, 4> ranks{};
-    for (std::size_t k = 0; k < 4; ++k) ranks[k] = near[k] == kNoVertex ? 0 : unused.rank(order[near[k]]);
-    std::uint32_t rank = 0;
-    std::uint32_t best = 0;
-    if constexpr (!Coder::kDecoding) {
-      rank = unused.rank(order[i]);
-      std::uint32_t least = 0xFFFFFFFF;
-      for (std::uint32_t k = 0; k < 4; ++k) {
-        const std::uint32_t distance = rank >= ranks[k] ? rank - ranks[k] : ranks[k] - 1 - rank;
-        if (distance < least) {
-          least = distance;
-          best = k;
-        }
+/// Mode kNear: each vertex index is coded by the number of unused indices between it and that of a reference.
+class NearOrder {
+ public:
+  explicit NearOrder(std::span<const Gate> gates)
+      : gates_(gates), count_(static_cast<std::uint32_t>(gates.size())), unused_(count_) {
+    choices_.fill(AdaptiveSymbol(kReferences));
+  }
+
+  /// Codes a whole order: complete when encoding, filled in when decoding. False when the stream is
+  /// malformed.
+  template <class Coder>
+  bool code(Coder& coder, std::span<std::uint32_t> order) {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      const Ranks ranks = reference_ranks(order, i);
+      std::uint32_t rank = 0, choice = 0;
+      if constexpr (!Coder::kDecoding) {
+        rank = unused_.rank(order[i]);
+        choice = cheapest(ranks, rank);
+      }
+      last_choice_ = coder.code(choices_[last_choice_], choice);
+      if (last_choice_ >= kReferences) return false;
+      const std::uint32_t reference = ranks[last_choice_];
+      const bool below = coder.code(below_[last_choice_], rank < reference);
+      const std::uint32_t distance = lengths_[last_choice_].code(coder, distance_of(rank, reference));
+      if (distance >= (below ? reference : count_ - i - reference)) return false;
+      order[i] = unused_.select(below ? reference - 1 - distance : reference + distance);
+      unused_.remove(order[i]);
+      if constexpr (Coder::kDecoding) {
+        if (coder.overrun()) return false;
       }
     }
-    choice = coder.code(choices[choice], best);
-    if (choice >= 4) return false;
-    const std::uint32_t reference = ranks[choice];
-    const bool below = coder.code(signs[choice], rank < reference);
-    const std::uint32_t distance =
-        lengths[choice].code(coder, below ? reference - 1 - rank : rank - reference);
-    if (below ? distance >= reference : distance >= count - i - reference) return false;
-    rank = below ? reference - 1 - distance : reference + distance;
-    const std::uint32_t index = unused.select(rank);
-    order[i] = index;
-    unused.remove(index);
-    if constexpr (Coder::kDecoding) {
-      if (coder.overrun()) return false;
-    }
+    return true;
   }
-  return true;
-}
 
-/// Codes an order in mode kUniform, otherwise like code_near_order.
+ private:
+  static constexpr int kReferences = 5;
+  using Ranks = std::array<std::uint32_t, kReferences>;
+
+  /// Ranks, among the unused indices, of those of the last vertex, of n, p and o, and of where n + p - o
+  /// points; 0 where there is no such vertex.
+  Ranks reference_ranks(std::span<const std::uint32_t> order, std::uint32_t i) const {
+    const Gate& gate = gates_[i];
+    Ranks ranks{};
+    if (i > 0) ranks[0] = unused_.rank(order[i - 1]);
+    if (gate.n != kNoVertex) ranks[1] = unused_.rank(order[gate.n]);
+    if (gate.p != kNoVertex) ranks[2] = unused_.rank(order[gate.p]);
+    if (gate.o != kNoVertex) {
+      ranks[3] = unused_.rank(order[gate.o]);
+      const std::int64_t sum = std::int64_t{order[gate.n]} + order[gate.p] - order[gate.o];
+      ranks[4] = unused_.rank(static_cast<std::uint32_t>(std::clamp<std::int64_t>(sum, 0, count_)));
+    }
+    return ranks;
+  }
+
+  static std::uint32_t distance_of(std::uint32_t rank, std::uint32_t reference) {
+    return rank < reference ? reference - 1 - rank : rank - reference;
+  }
+
+  /// The encoder's choice: the fewest bits, where another reference than the last is worth two.
+  std::uint32_t cheapest(const Ranks& ranks, std::uint32_t rank) const {
+    std::uint32_t best = 0;
+    int least = 64;
+    for (std::uint32_t k = 0; k < kReferences; ++k) {
+      const int cost = std::bit_width(distance_of(rank, ranks[k])) + (k == last_choice_ ? 0 : 2);
+      if (cost < least) {
+        least = cost;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  std::span<const Gate> gates_;
+  std::uint32_t count_;
+  IndexSet unused_;
+  std::uint32_t last_choice_ = 0;
+  std::array<AdaptiveSymbol, kReferences> choices_;  ///< [the vertex before's choice]
+  std::array<AdaptiveBit, kReferences> below_;       ///< [choice]
+  std::array<LengthModel, kReferences> lengths_;     ///< [choice]
+};
+
+/// Mode kUniform; otherwise like NearOrder::code.
 template <class Coder>
 bool code_uniform_order(Coder& coder, std::span<std::uint32_t> order) {
   const auto count = static_cast<std::uint32_t>(order.size());

@@ -30,8 +30,8 @@ Result<std::vector<std::uint32_t>> decode_order(std::span<const std::uint8_t> by
   if (mode != OrderMode::kNear && mode != OrderMode::kUniform)
     return order_error("unknown kind of vertex order");
   RangeDecoder coder(bytes.subspan(1));
-  const bool valid = mode == OrderMode::kNear ? code_near_order(coder, std::span(order), gates)
-                                              : code_uniform_order(coder, std::span(order));
+  const bool valid =
+      mode == OrderMode::kNear ? NearOrder(gates).code(coder, order) : code_uniform_order(coder, order);
   if (!valid || !coder.finished())
     return order_error("the vertex order is not a permutation of the vertices");
   return order;

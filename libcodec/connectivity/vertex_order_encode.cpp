@@ -26,7 +26,7 @@ std::vector<std::uint8_t> encode_order(std::span<const std::uint32_t> order, std
   if (is_identity(order)) return with_mode(OrderMode::kIdentity, {});
   std::vector<std::uint32_t> copy(order.begin(), order.end());
   RangeEncoder near, uniform;
-  code_near_order(near, copy, gates);
+  NearOrder(gates).code(near, copy);
   code_uniform_order(uniform, copy);
   std::vector<std::uint8_t> near_bytes = near.finish(), uniform_bytes = uniform.finish();
   return near_bytes.size() <= uniform_bytes.size() ? with_mode(OrderMode::kNear, std::move(near_bytes))

@@ -67,7 +67,7 @@ class AdaptiveSymbol {
   }
 
   void adapt(std::uint32_t symbol) {
-    const int rate = 4 + kRateSteps[count_];
+    const int rate = kRates[count_];
     const std::uint16_t* above = kAbove.data() + (kMaxSymbols - 1 - symbol);
 #if defined(__SSE2__)
     const __m128i shift = _mm_cvtsi32_si128(rate);
@@ -84,18 +84,18 @@ class AdaptiveSymbol {
       cumulative_[i] = static_cast<std::uint16_t>((distance - (distance >> rate)) ^ above[i]);
     }
 #endif
-    count_ = static_cast<std::uint8_t>(count_ + (count_ < kRateSteps.size() - 1 ? 1 : 0));
+    count_ = static_cast<std::uint8_t>(count_ + (count_ < kRates.size() - 1 ? 1 : 0));
   }
 
  private:
   friend class SymbolMixture;
 
-  static constexpr std::array<std::uint8_t, 65> kRateSteps = [] {
-    std::array<std::uint8_t, 65> steps{};
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      steps[i] = static_cast<std::uint8_t>((i >= 12 ? 1 : 0) + (i >= 28 ? 1 : 0) + (i >= 64 ? 1 : 0));
-    }
-    return steps;
+  /// [symbols seen]: the n-th symbol moves the boundaries by 2^-rate of the way.
+  static constexpr std::array<std::uint8_t, 33> kRates = [] {
+    std::array<std::uint8_t, 33> rates{};
+    for (std::size_t n = 0; n < rates.size(); ++n)
+      rates[n] = n < 2 ? 2 : n < 6 ? 3 : n < 16 ? 4 : n < 32 ? 5 : 6;
+    return rates;
   }();
   /// kAbove[15 - s + i] is where boundary i goes after symbol s: 0xFFFF where i > s, else 0.
   static constexpr std::array<std::uint16_t, 2 * kMaxSymbols> kAbove = [] {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 // How a residual is coded (format-spec §7.3): a 16-symbol alphabet under the mean of two adaptive models.
@@ -11,94 +13,103 @@
 // the other by what the vertex did in the frame before.
 namespace tvg {
 
-/// What is known when a residual is coded; residuals and sizes are on the vertex's own lattice.
-struct ResidualContext {
+/// Where a residual's models stand: see prediction/residual_context.hpp for how they are chosen.
+struct ModelChoice {
+  std::size_t set;         ///< below the number of sets
   std::uint32_t activity;  ///< weighted sum of the sizes of residuals already coded around
-  std::int32_t lean;       ///< Prediction::lean
-  std::int32_t gate;       ///< sum of the residuals at the gate's ends, this frame
-  std::int32_t previous;   ///< the vertex's own residual in the frame before
+  std::uint32_t first;     ///< 0 to 14
+  std::uint32_t second;    ///< 0 to 14
 };
 
 class ResidualModels {
  public:
-  ResidualModels();
+  /// `set_count` independent sets of models, all in their initial state.
+  explicit ResidualModels(std::size_t set_count) : cells_(set_count * kLevels) {}
 
   /// Codes one residual and returns it; a decoder ignores the argument. What a damaged stream yields is
   /// within +-2^27.
   template <class Coder>
-  std::int32_t code(Coder& coder, const ResidualContext& context, std::int32_t residual) {
-    const std::uint32_t level = level_of(context.activity);
-    const std::uint32_t lean = clamped(context.lean, 2);
-    Cell& cell = cells_[level];
-    AdaptiveSymbol& by_gate = cell.by_gate[lean * 3 + clamped(context.gate, 1)];
-    AdaptiveSymbol& by_previous = cell.by_previous[lean * 3 + clamped(context.previous, 1)];
-    const int raw_bits = kRawBits[level];
-    const std::int32_t high = residual >> raw_bits;
-    const bool escaped = high < -kLargest || high > kLargest;
-    const std::uint32_t wanted = escaped ? kEscape : static_cast<std::uint32_t>(high + kLargest);
-    const std::uint32_t symbol = coder.code(by_gate, by_previous, wanted);
-    if (symbol == kEscape) return code_escaped(coder, level, residual, high);
-    if (raw_bits == 0) return static_cast<std::int32_t>(symbol) - kLargest;
-    const std::uint32_t low =
-        coder.code_raw(static_cast<std::uint32_t>(residual) & ((1u << raw_bits) - 1), raw_bits);
-    return ((static_cast<std::int32_t>(symbol) - kLargest) << raw_bits) | static_cast<std::int32_t>(low);
+  std::int32_t code(Coder& coder, const ModelChoice& choice, std::int32_t residual) {
+    const std::size_t level = kLevelOf[std::min<std::uint32_t>(choice.activity, kLevelOf.size() - 1)];
+    Cell& cell = cells_[kLevels * choice.set + level];
+    AdaptiveSymbol& first = cell.first[choice.first];
+    AdaptiveSymbol& second = cell.second[choice.second];
+    if (level >= kFirstLevelWithRawBits) [[unlikely]]
+      return code_large(coder, cell, first, second, kRawBits[level], residual);
+    const bool fits = residual >= -kLargest && residual <= kLargest;
+    const std::uint32_t symbol =
+        coder.code(first, second, fits ? static_cast<std::uint32_t>(residual + kLargest) : kEscape);
+    if (symbol == kEscape) [[unlikely]]
+      return code_escaped(coder, cell, residual);
+    return static_cast<std::int32_t>(symbol) - kLargest;
   }
 
  private:
   static constexpr std::int32_t kLargest = 7;  ///< symbols 0 to 14 are -7 to 7, symbol 15 is the escape
   static constexpr std::uint32_t kEscape = 15;
   static constexpr std::size_t kLevels = 16;
+  static constexpr std::size_t kFirstLevelWithRawBits = 11;
   static constexpr std::array<std::uint8_t, kLevels> kRawBits = {0, 0, 0, 0, 0, 0, 0, 0,
                                                                  0, 0, 0, 1, 1, 2, 2, 3};
   /// Level l begins where the activity reaches kThresholds[l - 1] (about 4 (2^(l / 2.5) - 1)).
   static constexpr std::array<std::uint16_t, kLevels - 1> kThresholds = {2,  3,  6,  9,   12,  18,  24, 33,
                                                                          45, 60, 81, 108, 144, 190, 252};
+  static constexpr std::array<std::uint8_t, 256> kLevelOf = [] {
+    std::array<std::uint8_t, 256> levels{};
+    for (std::size_t activity = 0; activity < levels.size(); ++activity) {
+      while (levels[activity] < kThresholds.size() && activity >= kThresholds[levels[activity]])
+        ++levels[activity];
+    }
+    return levels;
+  }();
+
   struct Cell {
-    std::array<AdaptiveSymbol, 15> by_gate;      ///< [lean + 2][gate + 1]
-    std::array<AdaptiveSymbol, 15> by_previous;  ///< [lean + 2][previous + 1]
-    std::array<AdaptiveBit, 32> escape_length;
+    std::array<AdaptiveSymbol, 15> first;
+    std::array<AdaptiveSymbol, 15> second;
+    std::array<AdaptiveBit, 27> escape_length;
   };
 
-  static std::uint32_t clamped(std::int32_t value, std::int32_t largest) {
-    return static_cast<std::uint32_t>(std::clamp(value, -largest, largest) + largest);
-  }
-
-  static std::uint32_t level_of(std::uint32_t activity) {
-    return kLevelOf[std::min<std::uint32_t>(activity, kLevelOf.size() - 1)];
-  }
-
-  /// Sizes that the alphabet does not reach: Elias-gamma, its length adaptive, then sign and the raw bits.
+  /// Around large residuals the low bits are all alike: they go without a model.
   template <class Coder>
-  std::int32_t code_escaped(Coder& coder, std::uint32_t level, std::int32_t residual, std::int32_t high) {
-    const int raw_bits = kRawBits[level];
-    const bool negative = coder.code_raw(high < 0 ? 1 : 0, 1) != 0;
-    const auto excess =
-        static_cast<std::uint32_t>(high < 0 ? -(high + kLargest) : high - kLargest);  // at least 1
-    int length = 31 - std::countl_zero(excess | 1);
-    int coded = 0;
-    while (coded < 27 &&
-           coder.code(cells_[level].escape_length[static_cast<std::size_t>(coded)], coded < length))
-      ++coded;
-    length = coded;
-    std::uint32_t magnitude = 1;
+  static std::int32_t code_large(Coder& coder, Cell& cell, AdaptiveSymbol& first, AdaptiveSymbol& second,
+                                 int raw_bits, std::int32_t residual) {
+    const std::int32_t wanted = residual >> raw_bits;
+    const bool fits = wanted >= -kLargest && wanted <= kLargest;
+    const std::uint32_t symbol =
+        coder.code(first, second, fits ? static_cast<std::uint32_t>(wanted + kLargest) : kEscape);
+    const std::int32_t high =
+        symbol == kEscape ? code_escaped(coder, cell, wanted) : static_cast<std::int32_t>(symbol) - kLargest;
+    const std::uint32_t low =
+        coder.code_raw(static_cast<std::uint32_t>(residual) & ((1u << raw_bits) - 1), raw_bits);
+    const std::int64_t value = high * (std::int64_t{1} << raw_bits) + low;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -kBound, kBound));
+  }
+
+  /// Sizes that the alphabet does not reach: a sign, then Elias' gamma code of what is beyond, its length
+  /// adaptive.
+  template <class Coder>
+  static std::int32_t code_escaped(Coder& coder, Cell& cell, std::int32_t residual) {
+    const bool negative = coder.code_raw(residual < 0 ? 1 : 0, 1) != 0;
+    const auto beyond = static_cast<std::uint32_t>(std::max(std::abs(residual) - kLargest, 1));
+    const int wanted_length = std::bit_width(beyond) - 1;
+    int length = 0;
+    while (length < static_cast<int>(cell.escape_length.size()) &&
+           coder.code(cell.escape_length[static_cast<std::size_t>(length)], length < wanted_length)) {
+      ++length;
+    }
+    std::uint32_t value = 1;
     for (int left = length; left > 0;) {
       const int now = std::min(left, 15);
       left -= now;
-      magnitude = (magnitude << now) | coder.code_raw((excess >> left) & ((1u << now) - 1), now);
+      value = (value << now) | coder.code_raw((beyond >> left) & ((1u << now) - 1), now);
     }
-    const std::int64_t size = std::int64_t{magnitude} + kLargest;
-    const std::uint32_t low =
-        raw_bits == 0
-            ? 0
-            : coder.code_raw(static_cast<std::uint32_t>(residual) & ((1u << raw_bits) - 1), raw_bits);
-    const std::int64_t value = (negative ? -size : size) * (std::int64_t{1} << raw_bits) + low;
-    constexpr std::int64_t kBound = std::int64_t{1} << 27;
-    return static_cast<std::int32_t>(std::clamp(value, -kBound, kBound));
+    const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(value + kLargest, kBound));
+    return negative ? -size : size;
   }
 
-  static const std::array<std::uint8_t, 256> kLevelOf;
+  static constexpr std::int32_t kBound = 1 << 27;
 
-  std::vector<Cell> cells_;  ///< [level]
+  std::vector<Cell> cells_;  ///< [set][level]
 };
 
 }  // namespace tvg

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nanoflann.hpp>
@@ -60,6 +61,7 @@ class NearestTriangle {
 
   double bound() const { return bound_; }
 
+  // NOLINTBEGIN(readability-identifier-naming): nanoflann asks for these names.
   bool full() const { return true; }
   double worstDist() const {
     const double reach = (bound_ + class_.radius) * kRoundingMargin;
@@ -72,19 +74,21 @@ class NearestTriangle {
     }
     return true;
   }
+  // NOLINTEND(readability-identifier-naming)
 
  private:
   static constexpr double kRoundingMargin = 1 + 1e-9;
 
   const SizeClass& class_;
-  Vector3d point_;
+  const Vector3d& point_;
   double bound_;
 };
 
 class SurfaceIndex {
  public:
   SurfaceIndex(std::span<const Face> faces, const Points& points) {
-    std::map<int, std::unique_ptr<Level>> by_size;
+    // Large triangles first: they are few and leave a tight bound for the many.
+    std::map<int, std::unique_ptr<Level>, std::greater<>> by_size;
     for (const Face& face : faces) {
       Triangle triangle{points[face[0]], points[face[1]], points[face[2]], centroid(face, points), 0};
       for (const Vector3d& corner : {triangle.a, triangle.b, triangle.c}) {
@@ -95,11 +99,10 @@ class SurfaceIndex {
       level->content.radius = std::max(level->content.radius, triangle.radius);
       level->content.triangles.push_back(triangle);
     }
-    // Large triangles first: they are few and leave a tight bound for the many.
-    for (auto entry = by_size.rbegin(); entry != by_size.rend(); ++entry) {
-      Level& level = *entry->second;
+    for (auto& [size, stored] : by_size) {
+      Level& level = *stored;
       level.tree = std::make_unique<Tree>(3, level.content, nanoflann::KDTreeSingleIndexAdaptorParams(8));
-      levels_.push_back(std::move(entry->second));
+      levels_.push_back(std::move(stored));
     }
   }
 

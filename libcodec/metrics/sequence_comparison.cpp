@@ -49,7 +49,7 @@ class SequenceComparison::Accumulator {
   }
 
   Status add_frame(std::span<const float> original, std::span<const float> decoded) {
-    const Status checked = check(original, decoded);
+    Status checked = check(original, decoded);
     if (!checked.ok()) return checked;
     load(original, original_);
     load(decoded, decoded_);

@@ -8,14 +8,16 @@ namespace tvg {
 struct ElpPredictor {
   static constexpr bool kUsesTime = true;
 
-  static Prediction predict(const Neighbourhood& v) {
-    const std::int32_t motion_n = v.n - v.n_previous;
-    const std::int32_t motion_p = v.p - v.p_previous;
-    const std::int32_t motion_o = v.o - v.o_previous;
+  template <class T>
+  static Prediction<T> predict(const Neighbourhood<T>& v) {
+    const T motion_n = v.n - v.n_previous;
+    const T motion_p = v.p - v.p_previous;
+    const T motion_o = v.o - v.o_previous;
     return {v.previous + motion_n + motion_p - motion_o, motion_n + motion_p - 2 * motion_o};
   }
 
-  static std::int32_t predict_seed(const Neighbourhood& v, bool has_n) {
+  template <class T>
+  static T predict_seed(const Neighbourhood<T>& v, bool has_n) {
     return has_n ? v.previous + (v.n - v.n_previous) : v.previous;
   }
 };

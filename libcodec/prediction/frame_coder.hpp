@@ -2,13 +2,14 @@
 #include "connectivity/connectivity.hpp"
 #include "entropy/residual_models.hpp"
 #include "prediction/elp.hpp"
+#include "prediction/residual_context.hpp"
 #include "prediction/space.hpp"
 #include "prediction/time.hpp"
 #include "quantization/lattice.hpp"
 
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,7 +30,12 @@ class FrameCoder {
   /// `gates` and `flags` ([traversal index], empty when the lattice is not hybrid) must outlive the coder.
   FrameCoder(std::span<const Gate> gates, std::span<const std::uint8_t> flags, const Lattice& lattice,
              Predictor kind)
-      : gates_(gates), flags_(flags), bits_(lattice.fine_bits), shift_(lattice.shift()), kind_(kind) {
+      : gates_(gates),
+        flags_(flags),
+        bits_(lattice.fine_bits),
+        shift_(lattice.shift()),
+        kind_(kind),
+        models_(lattice.hybrid() ? kGateKindCount : 1) {
     for (auto* plane : {&current_, &previous_, &residuals_}) plane->assign(gates.size(), Quad{});
   }
 
@@ -52,11 +58,21 @@ class FrameCoder {
   }
 
  private:
+  /// Four coordinates at once: element-wise + - * >> ^ and comparisons, which yield -1 for true.
+  using Lanes [[gnu::vector_size(16)]] = std::int32_t;
+
   template <class P, class Coder>
   bool code_frame(Coder& coder, bool first) {
     std::uint32_t outside = 0;
     for (std::size_t v = 0; v < gates_.size(); ++v) {
-      outside |= code_vertex<P>(coder, v, first);
+      const Gate& gate = gates_[v];
+      if (gate.o == kNoVertex) {
+        outside |= code_seed<P>(coder, v, gate, first);
+      } else if (flags_.empty()) {
+        outside |= code_uniform<P>(coder, v, gate);
+      } else {
+        outside |= code_hybrid<P>(coder, v, gate);
+      }
       if constexpr (Coder::kDecoding) {
         if (v % 256 == 255 && coder.overrun())
           return false;  // work in proportion to the bytes that are there
@@ -65,78 +81,111 @@ class FrameCoder {
     return outside == 0;
   }
 
-  /// Returns bits that are not zero when a coordinate lies outside the lattice.
+  /// Codes one coordinate; `prediction` is on the vertex's own lattice. Returns bits that are not zero when
+  /// the index lies outside that lattice.
+  template <class Coder>
+  std::uint32_t code_coordinate(Coder& coder, std::size_t v, std::size_t axis, std::int32_t prediction,
+                                const ModelChoice& models, int shift) {
+    coder.begin_coordinate(axis);
+    const std::int32_t wanted = Coder::kDecoding ? 0 : shift_to_coarse(current_[v][axis], shift) - prediction;
+    const std::int32_t residual = models_.code(coder, models, wanted);
+    const auto index = static_cast<std::uint32_t>(prediction + residual);
+    const std::uint32_t outside = index >> (bits_ - shift);
+    if constexpr (Coder::kDecoding) {
+      // What follows a damaged residual is lost. Staying on the lattice keeps the arithmetic within 32 bits.
+      const auto inside = static_cast<std::int32_t>(index & ((1u << (bits_ - shift)) - 1));
+      current_[v][axis] = pad_to_fine(inside, shift);
+    }
+    residuals_[v][axis] = outside == 0 ? pad_to_fine(residual, shift) : 0;
+    return outside;
+  }
+
+  /// A vertex reached through a gate when there is one lattice: four lanes at once. code_hybrid() says the
+  /// same of one coordinate at a time.
   template <class P, class Coder>
-  std::uint32_t code_vertex(Coder& coder, std::size_t v, bool first) {
-    const Gate gate = gates_[v];
-    const int shift =
-        flags_.empty() || flags_[v] != 0 ? 0 : shift_;  // from the fine lattice to the vertex's own
-    const int bits = bits_ - shift;
+  std::uint32_t code_uniform(Coder& coder, std::size_t v, const Gate& gate) {
+    const auto lanes = [](const Quad& quad) { return std::bit_cast<Lanes>(quad); };
+    const auto size = [](Lanes x) { return (x ^ (x >> 31)) - (x >> 31); };
+    const Prediction<Lanes> prediction = P::template predict<Lanes>(
+        {lanes(previous_[v]), lanes(current_[gate.n]), lanes(current_[gate.p]), lanes(current_[gate.o]),
+         lanes(previous_[gate.n]), lanes(previous_[gate.p]), lanes(previous_[gate.o])});
+    const Lanes at_n = lanes(residuals_[gate.n]);
+    const Lanes at_p = lanes(residuals_[gate.p]);
+    const Lanes own = lanes(residuals_[v]);
+    const Lanes activity = 2 * (size(at_n) + size(at_p)) + size(lanes(residuals_[gate.o])) + 3 * size(own);
+    const Lanes lean = 3 * (2 - (prediction.lean > 0) - (prediction.lean > 1) + (prediction.lean < 0) +
+                            (prediction.lean < -1));
+    const Lanes ends = at_n + at_p;
+    const Lanes first = lean + 1 - (ends > 0) + (ends < 0);
+    const Lanes second = lean + 1 - (own > 0) + (own < 0);
     std::uint32_t outside = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ResidualContext context{};
-      const std::int32_t prediction = gate.o != kNoVertex
-                                          ? predict<P>(v, gate, axis, shift, first, context)
-                                          : predict_seed<P>(v, gate, axis, shift, first, context);
-      const std::int32_t wanted =
-          Coder::kDecoding ? 0 : shift_to_coarse(current_[v][axis], shift) - prediction;
-      const std::int32_t residual = models_.code(coder, context, wanted);
-      const auto index = static_cast<std::uint32_t>(prediction + residual);
-      outside |= index >> bits;
-      if constexpr (Coder::kDecoding) {
-        // What follows a damaged residual is lost; that it stays on the lattice keeps the arithmetic within
-        // 32 bits.
-        current_[v][axis] = pad_to_fine(static_cast<std::int32_t>(index & ((1u << bits) - 1)), shift);
-        residuals_[v][axis] = outside == 0 ? pad_to_fine(residual, shift) : 0;
-      } else {
-        residuals_[v][axis] = pad_to_fine(residual, shift);
-      }
+      const ModelChoice models{kOneLattice, static_cast<std::uint32_t>(activity[axis]),
+                               static_cast<std::uint32_t>(first[axis]),
+                               static_cast<std::uint32_t>(second[axis])};
+      outside |= code_coordinate(coder, v, axis, prediction.value[axis], models, 0);
     }
     return outside;
   }
 
   /// A vertex reached through a gate. Algorithm 2: every neighbour is brought to the vertex's own lattice
   /// first.
-  template <class P>
-  std::int32_t predict(std::size_t v, const Gate& gate, std::size_t axis, int shift, bool first,
-                       ResidualContext& context) const {
-    const auto now = [&](std::uint32_t w) { return shift_to_coarse(current_[w][axis], shift); };
-    const auto before = [&](std::uint32_t w) { return shift_to_coarse(previous_[w][axis], shift); };
-    const Neighbourhood neighbourhood{before(static_cast<std::uint32_t>(v)),
-                                      now(gate.n),
-                                      now(gate.p),
-                                      now(gate.o),
-                                      before(gate.n),
-                                      before(gate.p),
-                                      before(gate.o)};
-    const Prediction prediction = P::predict(neighbourhood);
-    const std::int32_t at_n = residuals_[gate.n][axis];
-    const std::int32_t at_p = residuals_[gate.p][axis];
-    const std::int32_t at_o = residuals_[gate.o][axis];
-    const std::int32_t own = first ? 0 : residuals_[v][axis];
-    const std::int32_t activity = 2 * (std::abs(at_n) + std::abs(at_p)) + std::abs(at_o) + 3 * std::abs(own);
-    context = {static_cast<std::uint32_t>(activity >> shift), prediction.lean, at_n + at_p, own};
-    return prediction.value;
+  template <class P, class Coder>
+  std::uint32_t code_hybrid(Coder& coder, std::size_t v, const Gate& gate) {
+    const std::array<bool, 3> fine = {flags_[gate.n] != 0, flags_[gate.p] != 0, flags_[gate.o] != 0};
+    const int fine_count = int{fine[0]} + int{fine[1]} + int{fine[2]};
+    const int shift = flags_[v] != 0 ? 0 : shift_;  // from the fine lattice to the vertex's own
+    const std::size_t set =
+        shift == 0 ? (fine_count == 3 ? kOneLattice : kFineAmongNone + static_cast<std::size_t>(fine_count))
+                   : (fine_count == 0 ? kCoarse : kCoarseMixed);
+    const bool pulled = P::kUsesTime && shift == 0 && fine_count < 3;
+    std::uint32_t outside = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto now = [&](std::size_t w) { return shift_to_coarse(current_[w][axis], shift); };
+      const auto before = [&](std::size_t w) { return shift_to_coarse(previous_[w][axis], shift); };
+      const Neighbourhood<std::int32_t> around{before(v),      now(gate.n),    now(gate.p),   now(gate.o),
+                                               before(gate.n), before(gate.p), before(gate.o)};
+      const Prediction<std::int32_t> prediction = P::predict(around);
+      const CoordinateFacts facts{
+          {residuals_[gate.n][axis], residuals_[gate.p][axis], residuals_[gate.o][axis]},
+          residuals_[v][axis],
+          prediction.lean};
+      ModelChoice models = choose_models(set, facts, shift);
+      if (pulled) {
+        const std::array<std::int32_t, 3> motion = {
+            around.n - around.n_previous, around.p - around.p_previous, around.o - around.o_previous};
+        const std::int32_t pull = coarse_pull(motion, fine, prediction.lean) >> (shift_ > 2 ? shift_ - 2 : 0);
+        models = choose_models_pulled(set, facts, pull);
+      }
+      outside |= code_coordinate(coder, v, axis, prediction.value, models, shift);
+    }
+    return outside;
   }
 
   /// A vertex without a whole gate: the first ones of a component, and isolated ones.
-  template <class P>
-  std::int32_t predict_seed(std::size_t v, const Gate& gate, std::size_t axis, int shift, bool first,
-                            ResidualContext& context) const {
+  template <class P, class Coder>
+  std::uint32_t code_seed(Coder& coder, std::size_t v, const Gate& gate, bool first) {
+    constexpr std::int32_t kNearActivity = 64;
+    constexpr std::int32_t kFarActivity = 255;
     const bool has_n = gate.n != kNoVertex;
-    const std::size_t n = has_n ? gate.n : v - 1;
-    Neighbourhood neighbourhood{};
-    neighbourhood.previous = shift_to_coarse(previous_[v][axis], shift);
-    neighbourhood.n =
-        has_n || v > 0 ? shift_to_coarse(current_[n][axis], shift) : (1 << (bits_ - 1)) >> shift;
-    neighbourhood.n_previous = has_n ? shift_to_coarse(previous_[n][axis], shift) : 0;
-    const std::int32_t own = first ? 0 : residuals_[v][axis];
-    constexpr std::uint32_t kNearActivity = 64;
-    constexpr std::uint32_t kFarActivity = 255;
-    const std::uint32_t activity =
-        first ? (has_n ? kNearActivity : kFarActivity) : 8 * static_cast<std::uint32_t>(std::abs(own));
-    context = {activity >> shift, 0, 0, own};
-    return P::predict_seed(neighbourhood, has_n);
+    const int shift = flags_.empty() || flags_[v] != 0 ? 0 : shift_;
+    std::uint32_t outside = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Neighbourhood<std::int32_t> around{};
+      around.previous = shift_to_coarse(previous_[v][axis], shift);
+      around.n = shift_to_coarse(1 << (bits_ - 1), shift);
+      if (has_n || v > 0) {
+        const std::size_t n = has_n ? gate.n : v - 1;
+        around.n = shift_to_coarse(current_[n][axis], shift);
+        around.n_previous = shift_to_coarse(previous_[n][axis], shift);
+      }
+      const std::int32_t own = residuals_[v][axis];
+      const std::int32_t activity = first ? (has_n ? kNearActivity : kFarActivity) : 8 * std::abs(own);
+      ModelChoice models = choose_models(kOneLattice, {{}, own, 0}, 0);
+      models.activity = static_cast<std::uint32_t>(activity >> shift);
+      outside |= code_coordinate(coder, v, axis, P::predict_seed(around, has_n), models, shift);
+    }
+    return outside;
   }
 
   std::span<const Gate> gates_;

@@ -7,11 +7,17 @@ namespace tvg {
 struct SpacePredictor {
   static constexpr bool kUsesTime = false;
 
-  static Prediction predict(const Neighbourhood& v) { return {v.n + v.p - v.o, 0}; }
+  template <class T>
+  static Prediction<T> predict(const Neighbourhood<T>& v) {
+    return {v.n + v.p - v.o, T{}};
+  }
 
   /// Without a gate edge, `v.n` is the vertex coded just before, or the middle of the lattice for the first
   /// one.
-  static std::int32_t predict_seed(const Neighbourhood& v, bool /*has_n*/) { return v.n; }
+  template <class T>
+  static T predict_seed(const Neighbourhood<T>& v, bool /*has_n*/) {
+    return v.n;
+  }
 };
 
 }  // namespace tvg

@@ -7,11 +7,15 @@ namespace tvg {
 struct TimePredictor {
   static constexpr bool kUsesTime = true;
 
-  static Prediction predict(const Neighbourhood& v) {
-    return {v.previous, -(v.n - v.n_previous) - (v.p - v.p_previous)};
+  template <class T>
+  static Prediction<T> predict(const Neighbourhood<T>& v) {
+    return {v.previous, (v.n_previous - v.n) + (v.p_previous - v.p)};
   }
 
-  static std::int32_t predict_seed(const Neighbourhood& v, bool /*has_n*/) { return v.previous; }
+  template <class T>
+  static T predict_seed(const Neighbourhood<T>& v, bool /*has_n*/) {
+    return v.previous;
+  }
 };
 
 }  // namespace tvg
