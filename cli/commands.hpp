@@ -4,8 +4,8 @@ namespace CLI {
 class App;
 }
 
-// Each subcommand adds itself to the tool and runs when CLI11 has parsed its options. A command ends by returning, or by
-// throwing ToolError.
+// Each subcommand adds itself to the tool and runs when CLI11 has parsed its options. A command ends by
+// returning, or by throwing ToolError.
 namespace tvg::cli {
 
 // Commands that make streams: encoder/.

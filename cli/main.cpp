@@ -1,10 +1,10 @@
+#include "cli/commands.hpp"
+#include "cli/tool_error.hpp"
+
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
 #include <iostream>
-
-#include "cli/commands.hpp"
-#include "cli/tool_error.hpp"
 
 int main(int argc, char** argv) {
   using namespace tvg::cli;

@@ -1,15 +1,14 @@
 #include "cli/option_values.hpp"
 
-#include <fmt/format.h>
+#include "cli/tool_error.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <fmt/format.h>
 #include <optional>
 #include <string_view>
 #include <utility>
-
-#include "cli/tool_error.hpp"
 
 namespace tvg::cli {
 
@@ -51,7 +50,8 @@ BitPair parse_bits(const std::string& text) {
   const auto bits = pair_of<int>(text, ':');
   if (!bits || bits->first < 1 || bits->first > 24 || bits->second < 1 || bits->second > bits->first) {
     throw usage("--bits", text,
-                "write the bits of important and of other vertices as 13:11, or one number for all; 1 to 24, the first "
+                "write the bits of important and of other vertices as 13:11, or one number for all; 1 to 24, "
+                "the first "
                 "at least the second");
   }
   return {bits->first, bits->second};
@@ -60,7 +60,8 @@ BitPair parse_bits(const std::string& text) {
 StepPair parse_step(const std::string& text) {
   const auto steps = pair_of<double>(text, ':');
   const std::string right =
-      "write the step of important and of other vertices in the mesh's units as 0.01:0.04, the second 1, 2, 4, 8, ... "
+      "write the step of important and of other vertices in the mesh's units as 0.01:0.04, the second 1, 2, "
+      "4, 8, ... "
       "times the first, or one number for all";
   if (!steps || !(steps->first > 0) || !std::isfinite(steps->first) || !(steps->second >= steps->first)) {
     throw usage("--step", text, right);
@@ -73,7 +74,8 @@ StepPair parse_step(const std::string& text) {
 
 double parse_share(const std::string& text) {
   const bool percent = !text.empty() && text.back() == '%';
-  const std::optional<double> value = percent ? number<double>(std::string_view(text).substr(0, text.size() - 1)) : std::nullopt;
+  const std::optional<double> value =
+      percent ? number<double>(std::string_view(text).substr(0, text.size() - 1)) : std::nullopt;
   if (!value || !(*value >= 0 && *value <= 100)) {
     throw usage("--important", text, "write the share of important vertices as 35%");
   }

@@ -1,10 +1,11 @@
 #pragma once
+#include "encoder/importers/frame_range.hpp"
+
 #include <cstdint>
 #include <string>
 
-#include "encoder/importers/frame_range.hpp"
-
-// Values of options as users type them. Every function throws ToolError (kUsage) that shows what would be right.
+// Values of options as users type them. Every function throws ToolError (kUsage) that shows what would be
+// right.
 namespace tvg::cli {
 
 /// "A-B": frames A to B, both included, or "A" for one frame.

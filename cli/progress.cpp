@@ -1,10 +1,9 @@
 #include "cli/progress.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <fmt/format.h>
+#include <unistd.h>
 
 namespace tvg::cli {
 
@@ -27,7 +26,8 @@ void ProgressBar::update(std::uint64_t done, std::optional<std::uint64_t> total)
   } else {
     constexpr std::uint64_t kWidth = 30;
     const std::uint64_t filled = std::min(kWidth, kWidth * done / *total);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} frames\x1b[K", label_, "", filled, "", kWidth - filled, done, *total);
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} frames\x1b[K", label_, "", filled, "", kWidth - filled,
+               done, *total);
   }
   std::fflush(stderr);
 }

@@ -6,8 +6,8 @@
 
 namespace tvg::cli {
 
-/// A progress bar on standard error: drawn only when that is a terminal, and not after --quiet. It is redrawn a few
-/// times a second at most and erased in the end.
+/// A progress bar on standard error: drawn only when that is a terminal, and not after --quiet. It is redrawn
+/// a few times a second at most and erased in the end.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);

@@ -6,10 +6,14 @@ namespace {
 
 ExitStatus exit_status(ErrorCode code) {
   switch (code) {
-    case ErrorCode::kInvalidArgument: return ExitStatus::kUsage;
-    case ErrorCode::kIo: return ExitStatus::kIo;
-    case ErrorCode::kOutOfMemory: return ExitStatus::kOther;
-    default: return ExitStatus::kInvalidInput;
+    case ErrorCode::kInvalidArgument:
+      return ExitStatus::kUsage;
+    case ErrorCode::kIo:
+      return ExitStatus::kIo;
+    case ErrorCode::kOutOfMemory:
+      return ExitStatus::kOther;
+    default:
+      return ExitStatus::kInvalidInput;
   }
 }
 

@@ -1,18 +1,17 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <cmath>
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
-
-#include <tvg/metrics.hpp>
-
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "decoder/stream_source.hpp"
 #include "encoder/importers/open_source.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include <tvg/metrics.hpp>
 
 namespace tvg::cli {
 
@@ -27,7 +26,9 @@ struct CompareArguments {
   bool quiet = false;
 };
 
-bool is_stream(const std::string& path) { return std::filesystem::path(path).extension() == ".tvg"; }
+bool is_stream(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".tvg";
+}
 bool is_cache(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension().string();
   return suffix == ".pc2" || suffix == ".mdd";
@@ -37,8 +38,10 @@ bool is_cache(const std::string& path) {
 std::unique_ptr<FrameSource> open_side(const std::string& path, const std::string& mesh) {
   if (is_stream(path)) return std::make_unique<StreamSource>(path);
   if (is_cache(path) && mesh.empty()) {
-    throw ToolError(ExitStatus::kUsage,
-                    fmt::format("{}: a cache has no faces: name its mesh with --mesh (an OBJ, PLY, OFF or STL file)", path));
+    throw ToolError(
+        ExitStatus::kUsage,
+        fmt::format("{}: a cache has no faces: name its mesh with --mesh (an OBJ, PLY, OFF or STL file)",
+                    path));
   }
   return open_source({is_cache(path) ? std::vector{mesh, path} : std::vector{path}, {}}).source;
 }
@@ -54,11 +57,13 @@ ComparisonReport compare(const CompareArguments& arguments) {
   const auto decoded = open_side(arguments.decoded, arguments.mesh);
   const std::uint32_t vertices = original->mesh().vertex_count;
   if (decoded->mesh().vertex_count != vertices) {
-    throw ToolError(ExitStatus::kInvalidInput,
-                    fmt::format("{} has {} vertices and {} has {}: only frames of one mesh can be compared",
-                                arguments.original, vertices, arguments.decoded, decoded->mesh().vertex_count));
+    throw ToolError(
+        ExitStatus::kInvalidInput,
+        fmt::format("{} has {} vertices and {} has {}: only frames of one mesh can be compared",
+                    arguments.original, vertices, arguments.decoded, decoded->mesh().vertex_count));
   }
-  SequenceComparison comparison(original->mesh(), {arguments.hausdorff_stride > 0, std::max(1u, arguments.hausdorff_stride)});
+  SequenceComparison comparison(original->mesh(),
+                                {arguments.hausdorff_stride > 0, std::max(1u, arguments.hausdorff_stride)});
   FramePositions a(3 * std::size_t{vertices});
   FramePositions b(a.size());
   ProgressBar bar("comparing", arguments.quiet);
@@ -66,49 +71,55 @@ ComparisonReport compare(const CompareArguments& arguments) {
     const bool more_a = *read(*original, a, arguments.original);
     const bool more_b = *read(*decoded, b, arguments.decoded);
     if (more_a != more_b) {
-      throw ToolError(ExitStatus::kInvalidInput, fmt::format("{} ends after {} frames, {} goes on",
-                                                             more_a ? arguments.decoded : arguments.original, frame,
-                                                             more_a ? arguments.original : arguments.decoded));
+      throw ToolError(
+          ExitStatus::kInvalidInput,
+          fmt::format("{} ends after {} frames, {} goes on", more_a ? arguments.decoded : arguments.original,
+                      frame, more_a ? arguments.original : arguments.decoded));
     }
     if (!more_a) break;
-    if (Status status = comparison.add_frame(a, b); !status.ok()) throw tool_error(arguments.decoded, status.error());
+    if (Status status = comparison.add_frame(a, b); !status.ok())
+      throw tool_error(arguments.decoded, status.error());
     bar.update(frame + 1, original->frame_count());
   }
   return comparison.report();
 }
 
-nlohmann::json finite_or_null(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
+nlohmann::json finite_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
+}
 
 void print_json(const ComparisonReport& report) {
-  nlohmann::json json = {{"frames", report.frames},
-                         {"vertices", report.vertices},
-                         {"extent", report.extent},
-                         {"diagonal", report.diagonal},
-                         {"max_coordinate_error", report.max_coordinate_error},
-                         {"max_vertex_distance", report.max_vertex_distance},
-                         {"rms_coordinate_error", report.rms_coordinate_error},
-                         {"rms_vertex_distance", report.rms_vertex_distance},
-                         {"mean_coordinate_error", report.mean_coordinate_error},
-                         {"relative_max_coordinate_error", finite_or_null(report.relative_max_coordinate_error)},
-                         {"relative_max_vertex_distance", finite_or_null(report.relative_max_vertex_distance)},
-                         {"relative_rms_coordinate_error", finite_or_null(report.relative_rms_coordinate_error)},
-                         {"relative_rms_vertex_distance", finite_or_null(report.relative_rms_vertex_distance)},
-                         {"worst_frame", report.worst_frame},
-                         {"worst_vertex", report.worst_vertex},
-                         {"snr_db", finite_or_null(report.snr_db)},
-                         {"kg_percent", finite_or_null(report.kg_percent)},
-                         {"mean_quadric_error", report.mean_quadric_error},
-                         {"max_quadric_error", report.max_quadric_error},
-                         {"hausdorff", nullptr},
-                         {"relative_hausdorff", nullptr},
-                         {"hausdorff_frames", report.hausdorff_frames}};
+  nlohmann::json json = {
+      {"frames", report.frames},
+      {"vertices", report.vertices},
+      {"extent", report.extent},
+      {"diagonal", report.diagonal},
+      {"max_coordinate_error", report.max_coordinate_error},
+      {"max_vertex_distance", report.max_vertex_distance},
+      {"rms_coordinate_error", report.rms_coordinate_error},
+      {"rms_vertex_distance", report.rms_vertex_distance},
+      {"mean_coordinate_error", report.mean_coordinate_error},
+      {"relative_max_coordinate_error", finite_or_null(report.relative_max_coordinate_error)},
+      {"relative_max_vertex_distance", finite_or_null(report.relative_max_vertex_distance)},
+      {"relative_rms_coordinate_error", finite_or_null(report.relative_rms_coordinate_error)},
+      {"relative_rms_vertex_distance", finite_or_null(report.relative_rms_vertex_distance)},
+      {"worst_frame", report.worst_frame},
+      {"worst_vertex", report.worst_vertex},
+      {"snr_db", finite_or_null(report.snr_db)},
+      {"kg_percent", finite_or_null(report.kg_percent)},
+      {"mean_quadric_error", report.mean_quadric_error},
+      {"max_quadric_error", report.max_quadric_error},
+      {"hausdorff", nullptr},
+      {"relative_hausdorff", nullptr},
+      {"hausdorff_frames", report.hausdorff_frames}};
   if (report.hausdorff) json["hausdorff"] = *report.hausdorff;
   if (report.relative_hausdorff) json["relative_hausdorff"] = *report.relative_hausdorff;
   fmt::print("{}\n", json.dump(2));
 }
 
 void print_text(const ComparisonReport& report) {
-  fmt::print("{} frames of {} vertices, bounding box diagonal {:.6g}\n", report.frames, report.vertices, report.diagonal);
+  fmt::print("{} frames of {} vertices, bounding box diagonal {:.6g}\n", report.frames, report.vertices,
+             report.diagonal);
   const auto line = [](const char* name, double value, double relative) {
     fmt::print("  {:<24}{:>14.6g}{:>12.5f} % of the diagonal\n", name, value, 100 * relative);
   };
@@ -116,7 +127,8 @@ void print_text(const ComparisonReport& report) {
   line("maximum, vertex", report.max_vertex_distance, report.relative_max_vertex_distance);
   line("RMS, coordinate", report.rms_coordinate_error, report.relative_rms_coordinate_error);
   line("RMS, vertex", report.rms_vertex_distance, report.relative_rms_vertex_distance);
-  fmt::print("  {:<24}{:>14}\n", "worst", fmt::format("frame {} vertex {}", report.worst_frame, report.worst_vertex));
+  fmt::print("  {:<24}{:>14}\n", "worst",
+             fmt::format("frame {} vertex {}", report.worst_frame, report.worst_vertex));
   fmt::print("  {:<24}{:>14.2f} dB\n", "SNR", report.snr_db);
   fmt::print("  {:<24}{:>14.5f} %\n", "KG error", report.kg_percent);
   fmt::print("  {:<24}{:>14.6g} mean, {:.6g} maximum\n", "quadric error", report.mean_quadric_error,
@@ -132,11 +144,13 @@ void print_text(const ComparisonReport& report) {
 void add_compare_command(CLI::App& tool) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = *tool.add_subcommand("compare", "Measure how far decoded frames lie from the original");
-  command.add_option("original", arguments->original, "a cache, a sequence of mesh files, or a .tvg")->required();
+  command.add_option("original", arguments->original, "a cache, a sequence of mesh files, or a .tvg")
+      ->required();
   command.add_option("decoded", arguments->decoded, "the same of what was decoded")->required();
   command.add_option("--mesh", arguments->mesh, "the mesh of the caches (OBJ, PLY, OFF, STL)");
-  command.add_option("--hausdorff", arguments->hausdorff_stride,
-                     "also measure the Hausdorff distance between the surfaces, at every Nth frame (slow)")
+  command
+      .add_option("--hausdorff", arguments->hausdorff_stride,
+                  "also measure the Hausdorff distance between the surfaces, at every Nth frame (slow)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--json", arguments->json, "print the figures as JSON");
   command.add_flag("-q,--quiet", arguments->quiet, "no progress bar");

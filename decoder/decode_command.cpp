@@ -1,14 +1,13 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
-
 #include "cli/commands.hpp"
 #include "cli/option_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "decoder/exporters/frame_sink.hpp"
 #include "decoder/stream_reader.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
 
 namespace tvg::cli {
 
@@ -43,8 +42,9 @@ class DecodeJob {
     }
     while (!done_) handle(reader_.next());
     if (wanted_ && written_ + lost_ < wanted_->last - wanted_->first + 1) {
-      throw ToolError(ExitStatus::kUsage, fmt::format("--frames {}: {} ends at frame {}", arguments_.frames,
-                                                      reader_.name(), next_frame_ == 0 ? 0 : next_frame_ - 1));
+      throw ToolError(ExitStatus::kUsage,
+                      fmt::format("--frames {}: {} ends at frame {}", arguments_.frames, reader_.name(),
+                                  next_frame_ == 0 ? 0 : next_frame_ - 1));
     }
     sink_->finish();
     report();
@@ -54,12 +54,23 @@ class DecodeJob {
   void handle(Decoder::Event event) {
     const Decoder& decoder = reader_.decoder();
     switch (event) {
-      case Decoder::Event::kMesh: begin_mesh(); break;
-      case Decoder::Event::kFrame: write_frame(); break;
-      case Decoder::Event::kDamage: conceal_damage(decoder.damage()); break;
-      case Decoder::Event::kEnd: done_ = true; break;
-      case Decoder::Event::kError: fail_or_stop(decoder.error()); break;
-      default: break;
+      case Decoder::Event::kMesh:
+        begin_mesh();
+        break;
+      case Decoder::Event::kFrame:
+        write_frame();
+        break;
+      case Decoder::Event::kDamage:
+        conceal_damage(decoder.damage());
+        break;
+      case Decoder::Event::kEnd:
+        done_ = true;
+        break;
+      case Decoder::Event::kError:
+        fail_or_stop(decoder.error());
+        break;
+      default:
+        break;
     }
   }
 
@@ -90,7 +101,8 @@ class DecodeJob {
         if (first_mesh == nullptr) first_mesh = mesh;
       } else if (frame + entry.frame_count > wanted_->first) {
         const bool other_mesh = mesh != nullptr && mesh != first_mesh;
-        if (frame > 0) reader_.jump(other_mesh ? mesh->offset : entry.offset, other_mesh ? frame_of(*mesh) : frame);
+        if (frame > 0)
+          reader_.jump(other_mesh ? mesh->offset : entry.offset, other_mesh ? frame_of(*mesh) : frame);
         return;
       } else {
         frame += entry.frame_count;
@@ -107,7 +119,9 @@ class DecodeJob {
     return frame;
   }
 
-  bool is_wanted(std::uint64_t frame) const { return !wanted_ || (frame >= wanted_->first && frame <= wanted_->last); }
+  bool is_wanted(std::uint64_t frame) const {
+    return !wanted_ || (frame >= wanted_->first && frame <= wanted_->last);
+  }
 
   void write_frame() {
     const Decoder& decoder = reader_.decoder();
@@ -120,7 +134,8 @@ class DecodeJob {
         sink_->begin_mesh(decoder.mesh(), decoder.metadata(), output_frames_);
       }
       decoder.copy_positions(positions_.data());
-      for (; held_ > 0; --held_) sink_->write_frame(positions_);  // lost before any good frame: the first stands in
+      for (; held_ > 0; --held_)
+        sink_->write_frame(positions_);  // lost before any good frame: the first stands in
       sink_->write_frame(positions_);
       ++written_;
       bar_.update(written_, output_frames_);
@@ -129,9 +144,11 @@ class DecodeJob {
   }
 
   void conceal_damage(const Damage& damage) {
-    const std::string where = damage.frame_count > 0 ? frame_run(damage.first_frame, damage.frame_count) + " lost: " : "";
+    const std::string where =
+        damage.frame_count > 0 ? frame_run(damage.first_frame, damage.frame_count) + " lost: " : "";
     std::uint64_t affected = 0;
-    for (std::uint64_t i = 0; i < damage.frame_count && !(wanted_ && damage.first_frame + i > wanted_->last); ++i) {
+    for (std::uint64_t i = 0; i < damage.frame_count && !(wanted_ && damage.first_frame + i > wanted_->last);
+         ++i) {
       affected += is_wanted(damage.first_frame + i) ? 1 : 0;
     }
     if (wanted_ && affected == 0) return;
@@ -177,7 +194,7 @@ class DecodeJob {
   std::optional<std::uint64_t> total_;          ///< frames of the stream
   std::optional<std::uint64_t> output_frames_;  ///< frames that are to be written
   std::optional<FrameRange> wanted_;
-  std::vector<float> positions_;                ///< the last good frame, [vertex][xyz]
+  std::vector<float> positions_;  ///< the last good frame, [vertex][xyz]
   bool begun_ = false;
   bool pending_mesh_ = false;
   bool done_ = false;
@@ -193,12 +210,15 @@ void add_decode_command(CLI::App& tool) {
   auto arguments = std::make_shared<DecodeArguments>();
   CLI::App& command = *tool.add_subcommand("decode", "Restore the frames of a .tvg");
   command.add_option("input", arguments->input, "the stream; - for standard input")->required();
-  command.add_option("-o,--output", arguments->output,
-                     "a cache (back.pc2, back.mdd; the mesh goes beside it as OBJ; - for PC2 on standard output) or a "
-                     "sequence of mesh files (back_%04d.obj, .ply, .off, .stl)")
+  command
+      .add_option(
+          "-o,--output", arguments->output,
+          "a cache (back.pc2, back.mdd; the mesh goes beside it as OBJ; - for PC2 on standard output) or a "
+          "sequence of mesh files (back_%04d.obj, .ply, .off, .stl)")
       ->required();
   command.add_option("--frames", arguments->frames, "decode frames A-B only, counted from 0");
-  command.add_flag("--conceal", arguments->conceal, "where frames are damaged, hold the last good one and go on");
+  command.add_flag("--conceal", arguments->conceal,
+                   "where frames are damaged, hold the last good one and go on");
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] { DecodeJob(*arguments).run(); });
 }

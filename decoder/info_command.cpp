@@ -1,15 +1,14 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <nlohmann/json.hpp>
-
-#include <tvg/metrics.hpp>
-
 #include "cli/commands.hpp"
 #include "cli/option_values.hpp"
 #include "cli/tool_error.hpp"
 #include "decoder/stream_reader.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include <tvg/metrics.hpp>
 
 namespace tvg::cli {
 
@@ -40,7 +39,8 @@ struct StreamSummary {
   std::array<double, 3> residuals{};
 
   double container() const {
-    return static_cast<double>(bytes) - connectivity - order - flags - residuals[0] - residuals[1] - residuals[2];
+    return static_cast<double>(bytes) - connectivity - order - flags - residuals[0] - residuals[1] -
+           residuals[2];
   }
 };
 
@@ -57,8 +57,12 @@ StreamSummary summarize(const std::string& path) {
         summary.chunks.push_back(decoder.chunk());
         summary.bytes += decoder.chunk().bytes;
         break;
-      case Decoder::Event::kHead: summary.head = decoder.head(); break;
-      case Decoder::Event::kMetadata: summary.metadata = decoder.metadata(); break;
+      case Decoder::Event::kHead:
+        summary.head = decoder.head();
+        break;
+      case Decoder::Event::kMetadata:
+        summary.metadata = decoder.metadata();
+        break;
       case Decoder::Event::kMesh:
         ++summary.meshes;
         summary.vertices = decoder.mesh().vertex_count;
@@ -74,12 +78,18 @@ StreamSummary summarize(const std::string& path) {
       case Decoder::Event::kFrame:
         ++summary.frames;
         summary.vertex_frames += decoder.mesh().vertex_count;
-        for (std::size_t axis = 0; axis < 3; ++axis) summary.residuals[axis] += decoder.frame_bits()[axis] / 8;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          summary.residuals[axis] += decoder.frame_bits()[axis] / 8;
         break;
-      case Decoder::Event::kDamage: ++summary.damaged; break;
-      case Decoder::Event::kError: throw tool_error(reader.name(), decoder.error());
-      case Decoder::Event::kEnd: return summary;
-      case Decoder::Event::kNeedBytes: break;
+      case Decoder::Event::kDamage:
+        ++summary.damaged;
+        break;
+      case Decoder::Event::kError:
+        throw tool_error(reader.name(), decoder.error());
+      case Decoder::Event::kEnd:
+        return summary;
+      case Decoder::Event::kNeedBytes:
+        break;
     }
   }
 }
@@ -107,9 +117,12 @@ void print_json(const StreamSummary& summary) {
   json["meshes"] = summary.meshes;
   json["keeps_vertex_order"] = summary.keeps_vertex_order;
   json["damages"] = summary.damaged;
-  json["bytes_by_purpose"] = {{"connectivity", summary.connectivity},    {"order", summary.order},
-                              {"flags", summary.flags},                  {"residuals_x", summary.residuals[0]},
-                              {"residuals_y", summary.residuals[1]},     {"residuals_z", summary.residuals[2]},
+  json["bytes_by_purpose"] = {{"connectivity", summary.connectivity},
+                              {"order", summary.order},
+                              {"flags", summary.flags},
+                              {"residuals_x", summary.residuals[0]},
+                              {"residuals_y", summary.residuals[1]},
+                              {"residuals_z", summary.residuals[2]},
                               {"container", summary.container()}};
   json["bits_per_coordinate"] = bits_per_coordinate(summary.bytes, summary.vertex_frames, 1);
   for (const ChunkInfo& chunk : summary.chunks) {
@@ -132,7 +145,8 @@ void print_json(const StreamSummary& summary) {
 void print_purposes(const StreamSummary& summary) {
   const auto line = [&summary](const char* purpose, double bytes) {
     const double coordinates = 3 * static_cast<double>(summary.vertex_frames);
-    fmt::print("  {:<14}{:>12.0f} B {:>7.2f} %", purpose, bytes, 100 * bytes / static_cast<double>(summary.bytes));
+    fmt::print("  {:<14}{:>12.0f} B {:>7.2f} %", purpose, bytes,
+               100 * bytes / static_cast<double>(summary.bytes));
     fmt::print("{:>10.4f} bits per coordinate\n", coordinates > 0 ? 8 * bytes / coordinates : 0.0);
   };
   fmt::print("\nwhere the bytes go\n");
@@ -147,20 +161,23 @@ void print_purposes(const StreamSummary& summary) {
 }
 
 void print_text(const StreamSummary& summary) {
-  fmt::print("{}: TVG {}.{}, {}\n", summary.file, summary.head.major, summary.head.minor, readable_bytes(summary.bytes));
-  fmt::print("  {} frames in {} GOPs, {} vertices, {} faces, vertex order {}\n", summary.frames, summary.gops.size(),
-             summary.vertices, summary.faces, summary.keeps_vertex_order ? "kept" : "given up");
+  fmt::print("{}: TVG {}.{}, {}\n", summary.file, summary.head.major, summary.head.minor,
+             readable_bytes(summary.bytes));
+  fmt::print("  {} frames in {} GOPs, {} vertices, {} faces, vertex order {}\n", summary.frames,
+             summary.gops.size(), summary.vertices, summary.faces,
+             summary.keeps_vertex_order ? "kept" : "given up");
   if (summary.meshes > 1) fmt::print("  {} meshes; the counts are those of the last\n", summary.meshes);
   fmt::print("  decoding needs at most {} of memory\n", readable_bytes(summary.head.limits.decoder_memory));
   for (const auto& [key, value] : summary.metadata) fmt::print("  {}: {}\n", key, value);
   if (summary.damaged > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damaged);
   print_purposes(summary);
 
-  fmt::print("\nGOPs\n  {:>8} {:>7} {:>10} {:>6} {:>9} {:>9} {:>12}\n", "first", "frames", "predictor", "bits", "flagged",
-             "step", "bytes");
+  fmt::print("\nGOPs\n  {:>8} {:>7} {:>10} {:>6} {:>9} {:>9} {:>12}\n", "first", "frames", "predictor",
+             "bits", "flagged", "step", "bytes");
   for (const GopInfo& gop : summary.gops) {
-    const std::string bits = gop.fine_bits == gop.coarse_bits ? fmt::format("{}", gop.fine_bits)
-                                                              : fmt::format("{}:{}", gop.fine_bits, gop.coarse_bits);
+    const std::string bits = gop.fine_bits == gop.coarse_bits
+                                 ? fmt::format("{}", gop.fine_bits)
+                                 : fmt::format("{}:{}", gop.fine_bits, gop.coarse_bits);
     const double share = 100.0 * gop.flagged / std::max(1u, summary.vertices);
     fmt::print("  {:>8} {:>7} {:>10} {:>6} {:>7.1f} % {:>9.4g} {:>12}\n", gop.first_frame, gop.frame_count,
                predictor_name(gop.predictor), bits, share, gop.step, gop.bytes);

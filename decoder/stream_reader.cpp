@@ -1,14 +1,13 @@
 #include "decoder/stream_reader.hpp"
 
+#include "cli/tool_error.hpp"
+
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
-#include "cli/tool_error.hpp"
 
 namespace tvg::cli {
 
@@ -66,7 +65,8 @@ std::vector<std::uint8_t> StreamReader::read_at(std::uint64_t offset, std::size_
   std::vector<std::uint8_t> bytes(size);
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t count = ::pread(descriptor_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+    const ssize_t count =
+        ::pread(descriptor_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) throw io_error(name_, "cannot be read");
     if (count == 0) break;

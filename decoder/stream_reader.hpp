@@ -8,8 +8,8 @@
 
 namespace tvg::cli {
 
-/// Feeds a decoder from a file or from standard input ("-"), a piece at a time. Failures to open or read are ToolErrors
-/// (kIo) that name the file.
+/// Feeds a decoder from a file or from standard input ("-"), a piece at a time. Failures to open or read are
+/// ToolErrors (kIo) that name the file.
 class StreamReader {
  public:
   explicit StreamReader(const std::string& path);

@@ -17,11 +17,17 @@ void StreamSource::open() {
   for (;;) {
     const Decoder& decoder = reader_->decoder();
     switch (reader_->next()) {
-      case Decoder::Event::kMesh: mesh_ = decoder.mesh(); return;
-      case Decoder::Event::kError: throw tool_error(path_, decoder.error());
-      case Decoder::Event::kDamage: throw tool_error(path_, decoder.damage().error);
-      case Decoder::Event::kEnd: throw ToolError(ExitStatus::kInvalidInput, path_ + ": the stream has no mesh");
-      default: break;
+      case Decoder::Event::kMesh:
+        mesh_ = decoder.mesh();
+        return;
+      case Decoder::Event::kError:
+        throw tool_error(path_, decoder.error());
+      case Decoder::Event::kDamage:
+        throw tool_error(path_, decoder.damage().error);
+      case Decoder::Event::kEnd:
+        throw ToolError(ExitStatus::kInvalidInput, path_ + ": the stream has no mesh");
+      default:
+        break;
     }
   }
 }
@@ -30,13 +36,20 @@ Result<bool> StreamSource::read_frame(std::span<float> positions) {
   for (;;) {
     const Decoder& decoder = reader_->decoder();
     switch (reader_->next()) {
-      case Decoder::Event::kFrame: decoder.copy_positions(positions.data()); return true;
-      case Decoder::Event::kEnd: return false;
-      case Decoder::Event::kError: return decoder.error();
-      case Decoder::Event::kDamage: return decoder.damage().error;
+      case Decoder::Event::kFrame:
+        decoder.copy_positions(positions.data());
+        return true;
+      case Decoder::Event::kEnd:
+        return false;
+      case Decoder::Event::kError:
+        return decoder.error();
+      case Decoder::Event::kDamage:
+        return decoder.damage().error;
       case Decoder::Event::kMesh:
-        return Error{ErrorCode::kInvalidInput, "the stream goes on with another mesh: compare its parts", {}, {}, ""};
-      default: break;
+        return Error{
+            ErrorCode::kInvalidInput, "the stream goes on with another mesh: compare its parts", {}, {}, ""};
+      default:
+        break;
     }
   }
 }

@@ -1,10 +1,10 @@
 #pragma once
+#include "decoder/stream_reader.hpp"
+
 #include <memory>
 #include <string>
 
 #include <tvg/sequence.hpp>
-
-#include "decoder/stream_reader.hpp"
 
 namespace tvg::cli {
 

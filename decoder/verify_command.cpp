@@ -1,13 +1,12 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <memory>
-#include <nlohmann/json.hpp>
-
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "decoder/stream_reader.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
 
 namespace tvg::cli {
 
@@ -48,7 +47,9 @@ void run_verify(const VerifyArguments& arguments) {
     ProgressBar bar("verifying", arguments.quiet);
     for (bool more = true; more;) {
       switch (reader.next()) {
-        case Decoder::Event::kFrame: bar.update(++frames, std::nullopt); break;
+        case Decoder::Event::kFrame:
+          bar.update(++frames, std::nullopt);
+          break;
         case Decoder::Event::kDamage:
           findings.push_back({decoder.damage().error, decoder.damage().frame_count});
           lost += decoder.damage().frame_count;
@@ -57,8 +58,11 @@ void run_verify(const VerifyArguments& arguments) {
           findings.push_back({decoder.error(), 0});
           more = false;
           break;
-        case Decoder::Event::kEnd: more = false; break;
-        default: break;
+        case Decoder::Event::kEnd:
+          more = false;
+          break;
+        default:
+          break;
       }
     }
   }
@@ -81,8 +85,8 @@ void run_verify(const VerifyArguments& arguments) {
     }
   }
   if (!findings.empty()) {
-    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: {} findings, {} frames decoded, {} lost", reader.name(),
-                                                           findings.size(), frames, lost));
+    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: {} findings, {} frames decoded, {} lost",
+                                                           reader.name(), findings.size(), frames, lost));
   }
 }
 

@@ -1,20 +1,19 @@
-#include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <map>
-#include <memory>
-#include <thread>
-
-#include <tvg/encoder.hpp>
-#include <tvg/metrics.hpp>
-
 #include "cli/atomic_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/option_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "encoder/importers/open_source.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include <tvg/encoder.hpp>
+#include <tvg/metrics.hpp>
 
 namespace tvg::cli {
 
@@ -52,8 +51,8 @@ Metadata metadata_of(const EncodeArguments& arguments) {
     }
     metadata[entry.substr(0, equals)] = entry.substr(equals + 1);
   }
-  for (const auto& [key, value] :
-       {std::pair("fps", &arguments.fps), std::pair("name", &arguments.name), std::pair("units", &arguments.units)}) {
+  for (const auto& [key, value] : {std::pair("fps", &arguments.fps), std::pair("name", &arguments.name),
+                                   std::pair("units", &arguments.units)}) {
     if (!value->empty()) metadata[key] = *value;
   }
   return metadata;
@@ -80,11 +79,14 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   options.importance.threshold = arguments.threshold;
   options.importance.alpha = arguments.alpha;
   options.predictor = std::map<std::string, Predictor>{
-      {"space", Predictor::kSpace}, {"time", Predictor::kTime}, {"elp", Predictor::kElp}}
-                          .at(arguments.predictor);
+      {"space", Predictor::kSpace},
+      {"time", Predictor::kTime},
+      {"elp",
+       Predictor::kElp}}.at(arguments.predictor);
   options.gop_frames = arguments.gop;
   options.keep_vertex_order = !arguments.reorder;
-  options.threads = arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
+  options.threads =
+      arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
   options.metadata = metadata_of(arguments);
   return options;
 }
@@ -107,7 +109,9 @@ void run_encode(const EncodeArguments& arguments) {
     return Status();
   };
   ProgressBar bar("encoding", arguments.quiet);
-  const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) { bar.update(frames, total); };
+  const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
+    bar.update(frames, total);
+  };
   const Result<EncodeReport> report = encode(*opened.source, options, sink, progress);
   if (!report) throw tool_error(fmt::format("{}", fmt::join(arguments.inputs, ", ")), report.error());
   file.finish();
@@ -117,10 +121,12 @@ void run_encode(const EncodeArguments& arguments) {
     fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
   }
   const std::uint64_t raw = 12 * report->frames * report->vertices;
-  fmt::print(stderr, "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
-             arguments.output, report->frames, report->vertices, report->gops, readable_bytes(report->bytes),
-             bits_per_coordinate(report->bytes, report->vertices, report->frames),
-             static_cast<double>(raw) / static_cast<double>(report->bytes));
+  fmt::print(
+      stderr,
+      "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
+      arguments.output, report->frames, report->vertices, report->gops, readable_bytes(report->bytes),
+      bits_per_coordinate(report->bytes, report->vertices, report->frames),
+      static_cast<double>(raw) / static_cast<double>(report->bytes));
 }
 
 }  // namespace
@@ -128,34 +134,44 @@ void run_encode(const EncodeArguments& arguments) {
 void add_encode_command(CLI::App& tool) {
   auto arguments = std::make_shared<EncodeArguments>();
   CLI::App& command = *tool.add_subcommand("encode", "Make a .tvg of a mesh sequence");
-  command.add_option("input", arguments->inputs,
-                     "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
-                     "files: a folder or a pattern (walk_%04d.obj, walk_####.obj)")
+  command
+      .add_option(
+          "input", arguments->inputs,
+          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
+          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj)")
       ->required();
-  command.add_option("-o,--output", arguments->output, "the stream to write; - for standard output")->required();
+  command.add_option("-o,--output", arguments->output, "the stream to write; - for standard output")
+      ->required();
   command.add_option("--frames", arguments->frames, "encode frames A-B only, counted from 0");
-  auto* bits = command.add_option("--bits", arguments->bits,
-                                  "bits per coordinate of important and of other vertices (13:11), or of all")
+  auto* bits = command
+                   .add_option("--bits", arguments->bits,
+                               "bits per coordinate of important and of other vertices (13:11), or of all")
                    ->capture_default_str();
-  command.add_option("--step", arguments->step,
-                     "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
-                     "off by more than half a step")
+  command
+      .add_option(
+          "--step", arguments->step,
+          "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
+          "off by more than half a step")
       ->excludes(bits);
-  auto* share = command.add_option("--important", arguments->important,
-                                   "share of important vertices where there are two resolutions (default 35%)");
+  auto* share =
+      command.add_option("--important", arguments->important,
+                         "share of important vertices where there are two resolutions (default 35%)");
   command.add_option("--important-above", arguments->threshold, "instead: vertices whose cost is above this")
       ->excludes(share);
   command.add_option("--alpha", arguments->alpha, "weight of the change of curvature against its mean")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command.add_option("--mode", arguments->mode, "how frames are coded")->check(CLI::IsMember({"elp"}))->capture_default_str();
+  command.add_option("--mode", arguments->mode, "how frames are coded")
+      ->check(CLI::IsMember({"elp"}))
+      ->capture_default_str();
   command.add_option("--predictor", arguments->predictor, "what vertices are predicted from")
       ->check(CLI::IsMember({"space", "time", "elp"}))
       ->capture_default_str();
   command.add_option("--gop", arguments->gop, "frames that can be decoded on their own")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  command.add_flag("--reorder", arguments->reorder, "give up the vertex order, which saves about a byte per vertex");
+  command.add_flag("--reorder", arguments->reorder,
+                   "give up the vertex order, which saves about a byte per vertex");
   command.add_option("--fps", arguments->fps, "frames per second, kept with the stream (30, 30000/1001)");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");

@@ -541,11 +541,21 @@ const Metadata& Decoder::metadata() const {
 const Mesh& Decoder::mesh() const {
   return state_->mesh.mesh;
 }
-const MeshInfo& Decoder::mesh_info() const { return state_->mesh.info; }
-const ChunkInfo& Decoder::chunk() const { return state_->chunk_info; }
-const std::array<double, 3>& Decoder::frame_bits() const { return state_->frame_bits; }
-void Decoder::jump(std::uint64_t offset, std::uint64_t frame) { state_->jump(offset, frame); }
-void Decoder::measure_bits(bool on) { state_->measures_bits = on; }
+const MeshInfo& Decoder::mesh_info() const {
+  return state_->mesh.info;
+}
+const ChunkInfo& Decoder::chunk() const {
+  return state_->chunk_info;
+}
+const std::array<double, 3>& Decoder::frame_bits() const {
+  return state_->frame_bits;
+}
+void Decoder::jump(std::uint64_t offset, std::uint64_t frame) {
+  state_->jump(offset, frame);
+}
+void Decoder::measure_bits(bool on) {
+  state_->measures_bits = on;
+}
 const GopInfo& Decoder::gop() const {
   return state_->gop_info;
 }

@@ -1,7 +1,7 @@
-#include <tvg/decoder.hpp>
-
 #include "container/checksum.hpp"
 #include "container/layout.hpp"
+
+#include <tvg/decoder.hpp>
 
 namespace tvg {
 

@@ -52,36 +52,34 @@ class AdaptiveSymbol {
   explicit AdaptiveSymbol(int symbol_count = kMaxSymbols) {
     for (int i = 0; i < kMaxSymbols; ++i) {
       cumulative_[static_cast<std::size_t>(i)] =
-          static_cast<std::uint16_t>(0xFFFF * std::min(i, symbol_count) / symbol_count);
+          static_cast<std::int16_t>(kScale * std::min(i, symbol_count) / symbol_count);
     }
   }
 
   /// Starts with a given distribution: weights add up to at most 0xFFFF; what is missing goes to the last
   /// symbol.
   explicit AdaptiveSymbol(const std::array<std::uint16_t, kMaxSymbols>& weights) {
-    std::uint16_t sum = 0;
+    std::int32_t sum = 0;
     for (std::size_t i = 0; i < kMaxSymbols; ++i) {
-      cumulative_[i] = sum;
-      sum = static_cast<std::uint16_t>(sum + weights[i]);
+      cumulative_[i] = static_cast<std::int16_t>(sum * kScale / 0xFFFF);
+      sum += weights[i];
     }
   }
 
   void adapt(std::uint32_t symbol) {
     const int rate = kRates[count_];
-    const std::uint16_t* above = kAbove.data() + (kMaxSymbols - 1 - symbol);
+    const std::int16_t* goals = kGoals.data() + (kMaxSymbols - 1 - symbol);
 #if defined(__SSE2__)
     const __m128i shift = _mm_cvtsi32_si128(rate);
     for (std::size_t half = 0; half < 2; ++half) {
       auto* lanes = reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half);
-      const __m128i goal = _mm_loadu_si128(reinterpret_cast<const __m128i*>(above + 8 * half));
-      const __m128i distance = _mm_xor_si128(_mm_load_si128(lanes), goal);
-      const __m128i rest = _mm_sub_epi16(distance, _mm_srl_epi16(distance, shift));
-      _mm_store_si128(lanes, _mm_xor_si128(rest, goal));
+      const __m128i old = _mm_load_si128(lanes);
+      const __m128i goal = _mm_loadu_si128(reinterpret_cast<const __m128i*>(goals + 8 * half));
+      _mm_store_si128(lanes, _mm_add_epi16(old, _mm_sra_epi16(_mm_sub_epi16(goal, old), shift)));
     }
 #else
     for (std::size_t i = 0; i < kMaxSymbols; ++i) {
-      const unsigned distance = cumulative_[i] ^ above[i];
-      cumulative_[i] = static_cast<std::uint16_t>((distance - (distance >> rate)) ^ above[i]);
+      cumulative_[i] = static_cast<std::int16_t>(cumulative_[i] + ((goals[i] - cumulative_[i]) >> rate));
     }
 #endif
     count_ = static_cast<std::uint8_t>(count_ + (count_ < kRates.size() - 1 ? 1 : 0));
@@ -97,15 +95,17 @@ class AdaptiveSymbol {
       rates[n] = n < 2 ? 2 : n < 6 ? 3 : n < 16 ? 4 : n < 32 ? 5 : 6;
     return rates;
   }();
-  /// kAbove[15 - s + i] is where boundary i goes after symbol s: 0xFFFF where i > s, else 0.
-  static constexpr std::array<std::uint16_t, 2 * kMaxSymbols> kAbove = [] {
-    std::array<std::uint16_t, 2 * kMaxSymbols> goals{};
-    for (std::size_t i = kMaxSymbols; i < goals.size(); ++i) goals[i] = 0xFFFF;
+  /// What all probabilities of a model add up to; the rest of 1 << 15 is shared out evenly by SymbolMixture.
+  static constexpr std::int16_t kScale = (1 << kProbabilityBits) - 4 * kMaxSymbols;
+  /// kGoals[15 - s + i] is where boundary i moves after symbol s: kScale where i > s, else 0.
+  static constexpr std::array<std::int16_t, 2 * kMaxSymbols> kGoals = [] {
+    std::array<std::int16_t, 2 * kMaxSymbols> goals{};
+    for (std::size_t i = kMaxSymbols; i < goals.size(); ++i) goals[i] = kScale;
     return goals;
   }();
 
-  /// [i]: probability of the symbols below i, out of 0xFFFF; never decreases with i.
-  alignas(16) std::array<std::uint16_t, kMaxSymbols> cumulative_;
+  /// [i]: probability of the symbols below i, out of kScale; never decreases with i.
+  alignas(16) std::array<std::int16_t, kMaxSymbols> cumulative_;
   std::uint8_t count_ = 0;
 };
 
@@ -125,13 +125,12 @@ class SymbolMixture {
       const __m128i lanes_b =
           _mm_load_si128(reinterpret_cast<const __m128i*>(b.cumulative_.data() + 8 * half));
       const __m128i offsets = _mm_load_si128(reinterpret_cast<const __m128i*>(kOffsets.data() + 8 * half));
-      const __m128i mean = _mm_add_epi16(_mm_srli_epi16(lanes_a, 2), _mm_srli_epi16(lanes_b, 2));
-      const __m128i scaled = _mm_add_epi16(_mm_sub_epi16(mean, _mm_srli_epi16(mean, 9)), offsets);
-      _mm_store_si128(reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half), scaled);
+      _mm_store_si128(reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half),
+                      _mm_add_epi16(_mm_avg_epu16(lanes_a, lanes_b), offsets));
 #else
       for (std::size_t i = 8 * half; i < 8 * half + 8; ++i) {
-        const unsigned mean = (a.cumulative_[i] >> 2) + (b.cumulative_[i] >> 2);
-        cumulative_[i] = static_cast<std::uint16_t>(mean - (mean >> 9) + kOffsets[i]);
+        cumulative_[i] =
+            static_cast<std::uint16_t>((a.cumulative_[i] + b.cumulative_[i] + 1) / 2 + kOffsets[i]);
       }
 #endif
     }

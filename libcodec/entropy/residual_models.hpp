@@ -29,7 +29,7 @@ class ResidualModels {
   /// Codes one residual and returns it; a decoder ignores the argument. What a damaged stream yields is
   /// within +-2^27.
   template <class Coder>
-  std::int32_t code(Coder& coder, const ModelChoice& choice, std::int32_t residual) {
+  [[gnu::always_inline]] std::int32_t code(Coder& coder, const ModelChoice& choice, std::int32_t residual) {
     const std::size_t level = kLevelOf[std::min<std::uint32_t>(choice.activity, kLevelOf.size() - 1)];
     Cell& cell = cells_[kLevels * choice.set + level];
     AdaptiveSymbol& first = cell.first[choice.first];
@@ -71,8 +71,9 @@ class ResidualModels {
 
   /// Around large residuals the low bits are all alike: they go without a model.
   template <class Coder>
-  static std::int32_t code_large(Coder& coder, Cell& cell, AdaptiveSymbol& first, AdaptiveSymbol& second,
-                                 int raw_bits, std::int32_t residual) {
+  [[gnu::noinline]] static std::int32_t code_large(Coder& coder, Cell& cell, AdaptiveSymbol& first,
+                                                   AdaptiveSymbol& second, int raw_bits,
+                                                   std::int32_t residual) {
     const std::int32_t wanted = residual >> raw_bits;
     const bool fits = wanted >= -kLargest && wanted <= kLargest;
     const std::uint32_t symbol =
@@ -88,7 +89,7 @@ class ResidualModels {
   /// Sizes that the alphabet does not reach: a sign, then Elias' gamma code of what is beyond, its length
   /// adaptive.
   template <class Coder>
-  static std::int32_t code_escaped(Coder& coder, Cell& cell, std::int32_t residual) {
+  [[gnu::noinline]] static std::int32_t code_escaped(Coder& coder, Cell& cell, std::int32_t residual) {
     const bool negative = coder.code_raw(residual < 0 ? 1 : 0, 1) != 0;
     const auto beyond = static_cast<std::uint32_t>(std::max(std::abs(residual) - kLargest, 1));
     const int wanted_length = std::bit_width(beyond) - 1;

@@ -84,8 +84,9 @@ class FrameCoder {
   /// Codes one coordinate; `prediction` is on the vertex's own lattice. Returns bits that are not zero when
   /// the index lies outside that lattice.
   template <class Coder>
-  std::uint32_t code_coordinate(Coder& coder, std::size_t v, std::size_t axis, std::int32_t prediction,
-                                const ModelChoice& models, int shift) {
+  [[gnu::always_inline]] std::uint32_t code_coordinate(Coder& coder, std::size_t v, std::size_t axis,
+                                                       std::int32_t prediction, const ModelChoice& models,
+                                                       int shift) {
     coder.begin_coordinate(axis);
     const std::int32_t wanted = Coder::kDecoding ? 0 : shift_to_coarse(current_[v][axis], shift) - prediction;
     const std::int32_t residual = models_.code(coder, models, wanted);
@@ -118,13 +119,24 @@ class FrameCoder {
     const Lanes ends = at_n + at_p;
     const Lanes first = lean + 1 - (ends > 0) + (ends < 0);
     const Lanes second = lean + 1 - (own > 0) + (own < 0);
-    std::uint32_t outside = 0;
+    const Lanes given = lanes(current_[v]);
+    std::array<std::int32_t, 3> residual;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const ModelChoice models{kOneLattice, static_cast<std::uint32_t>(activity[axis]),
                                static_cast<std::uint32_t>(first[axis]),
                                static_cast<std::uint32_t>(second[axis])};
-      outside |= code_coordinate(coder, v, axis, prediction.value[axis], models, 0);
+      coder.begin_coordinate(axis);
+      residual[axis] =
+          models_.code(coder, models, Coder::kDecoding ? 0 : given[axis] - prediction.value[axis]);
     }
+    // Whole quads are stored, not their parts: the next vertex loads them whole, at once.
+    const Lanes residuals = {residual[0], residual[1], residual[2], 0};
+    const Lanes index = prediction.value + residuals;
+    const Lanes inside = index & ((1 << bits_) - 1);
+    const Lanes differs = index ^ inside;
+    const std::uint32_t outside = static_cast<std::uint32_t>(differs[0] | differs[1] | differs[2]);
+    if constexpr (Coder::kDecoding) current_[v] = std::bit_cast<Quad>(inside);
+    residuals_[v] = outside == 0 ? std::bit_cast<Quad>(residuals) : Quad{};
     return outside;
   }
 
