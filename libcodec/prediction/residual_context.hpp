@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-// Which models code a residual (format-spec §7.4): chosen from what both sides know before it.
+// Which models code a residual (format-spec §7.3.1): chosen from what both sides know before it.
 namespace tvg {
 
 /// Sets of models, by the lattices that a vertex and the three vertices of its gate lie on.
