@@ -24,7 +24,7 @@ struct LatticeSequence {
 /// One codec on one sequence, one thread; times as best_time() takes them.
 struct CodecResult {
   std::string name;
-  std::size_t bytes = 0;  ///< everything a decoder needs, connectivity counted once
+  std::size_t bytes = 0;  ///< everything a decoder needs; connectivity once, with Draco in each frame
   double encode_seconds = 0;
   double decode_seconds = 0;
   bool exact =

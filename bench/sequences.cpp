@@ -6,10 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
 namespace tvg::bench {
+
+std::string default_data_folder() {
+  const char* folder = std::getenv("TVG_DATA_DIR");
+  return folder != nullptr ? folder : TVG_DEFAULT_DATA_DIR;
+}
 
 std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;

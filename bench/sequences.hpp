@@ -14,6 +14,9 @@ struct NamedSequence {
   Sequence sequence;
 };
 
+/// Where sequences are looked for: $TVG_DATA_DIR, else the folder the build was told of.
+std::string default_data_folder();
+
 /// The stems of every NAME.obj in `folder` that has a NAME.pc2 beside it, sorted; none when there is no such
 /// folder.
 std::vector<std::string> names_in(const std::string& folder);

@@ -102,11 +102,6 @@ void print_codecs(const NamedSequence& named, int bits) {
   std::printf("  decoding: %.1f times Draco's speed\n", draco.decode_seconds / ours.codec.decode_seconds);
 }
 
-std::string default_data_folder() {
-  const char* folder = std::getenv("TVG_DATA_DIR");
-  return folder != nullptr ? folder : TVG_DEFAULT_DATA_DIR;
-}
-
 void run(const std::string& folder, int bits) {
   std::printf("%s, one thread\n\n", machine().c_str());
   const std::vector<std::string> names = names_in(folder);

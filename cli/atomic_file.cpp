@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
@@ -17,6 +20,41 @@ namespace tvg::cli {
 namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
+
+/// A temporary file's name where a signal handler can read it: no allocation, no lock.
+struct TemporaryName {
+  std::atomic<bool> taken{false};
+  std::atomic<bool> valid{false};
+  std::array<char, 4096> path{};
+};
+constexpr std::size_t kMostTemporaryNames = 16;
+std::array<TemporaryName, kMostTemporaryNames> temporary_names;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// Files beyond the table's size are not removed by a signal.
+void remember_temporary(const std::string& path) {
+  for (TemporaryName& name : temporary_names) {
+    if (path.size() >= name.path.size() || name.taken.exchange(true)) continue;
+    std::memcpy(name.path.data(), path.c_str(), path.size() + 1);
+    name.valid = true;
+    return;
+  }
+}
+
+void forget_temporary(const std::string& path) {
+  for (TemporaryName& name : temporary_names) {
+    if (!name.valid || path != name.path.data()) continue;
+    name.valid = false;
+    name.taken = false;
+  }
+}
+
+extern "C" void remove_temporaries_and_end(int signal) {
+  for (const TemporaryName& name : temporary_names) {
+    if (name.valid) unlink(name.path.data());
+  }
+  raise(signal);  // its default action, restored by SA_RESETHAND, tells the caller why the process ended
+}
 
 }  // namespace
 
@@ -47,7 +85,9 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ >= 0 && descriptor_ != STDOUT_FILENO) close(descriptor_);
-  if (!temporary_.empty()) unlink(temporary_.c_str());
+  if (temporary_.empty()) return;
+  unlink(temporary_.c_str());
+  forget_temporary(temporary_);
 }
 
 void AtomicFile::open_temporary(const std::string& target) {
@@ -59,6 +99,7 @@ void AtomicFile::open_temporary(const std::string& target) {
     descriptor_ = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
       temporary_ = std::move(name);
+      remember_temporary(temporary_);
       return;
     }
     if (errno != EEXIST) break;
@@ -139,6 +180,7 @@ void AtomicFile::finish() {
   if (closed != 0) fail("", errno);
   if (temporary_.empty()) return;
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("", errno);
+  forget_temporary(temporary_);
   temporary_.clear();
 }
 
@@ -146,6 +188,17 @@ void AtomicFile::finish_as(const std::string& path) {
   path_ = path;
   target_ = path;
   finish();
+}
+
+void remove_temporary_files_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = remove_temporaries_and_end;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction current {};
+    if (sigaction(signal, nullptr, &current) == 0 && current.sa_handler == SIG_IGN) continue;  // nohup
+    sigaction(signal, &action, nullptr);
+  }
 }
 
 }  // namespace tvg::cli

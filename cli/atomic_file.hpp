@@ -56,4 +56,7 @@ class AtomicFile {
   std::vector<char> buffer_;
 };
 
+/// Lets SIGINT, SIGTERM and SIGHUP remove the temporary files of this process before they end it.
+void remove_temporary_files_on_signals();
+
 }  // namespace tvg::cli

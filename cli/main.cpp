@@ -1,14 +1,19 @@
+#include "cli/atomic_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <iostream>
+#include <system_error>
 
 int main(int argc, char** argv) {
   using namespace tvg::cli;
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is an I/O error like another
+  remove_temporary_files_on_signals();
 
   CLI::App tool("Compresses, inspects and restores time-variant geometry (.tvg).", "tvg");
   tool.set_version_flag("--version", TVG_VERSION);
@@ -23,6 +28,7 @@ int main(int argc, char** argv) {
 
   try {
     tool.parse(argc, argv);
+    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
     return static_cast<int>(ExitStatus::kSuccess);
   } catch (const CLI::ParseError& error) {
     const bool asked_for_help = tool.exit(error) == 0;
@@ -31,6 +37,10 @@ int main(int argc, char** argv) {
     std::cerr << "tvg: " << error.what() << '\n';
     return static_cast<int>(error.status());
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) {  // what a command prints did not reach anyone
+      std::cerr << "tvg: cannot write standard output: " << std::generic_category().message(errno) << '\n';
+      return static_cast<int>(ExitStatus::kIo);
+    }
     std::cerr << "tvg: " << error.what() << '\n';
     return static_cast<int>(ExitStatus::kOther);
   }

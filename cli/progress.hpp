@@ -18,6 +18,9 @@ class ProgressBar {
   /// `done` of `total` frames; without a total only the count is shown.
   void update(std::uint64_t done, std::optional<std::uint64_t> total);
 
+  /// Erases the bar, so that other text can take its line; the next update draws it again.
+  void clear();
+
  private:
   std::string label_;
   bool visible_;

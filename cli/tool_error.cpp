@@ -23,4 +23,10 @@ ToolError tool_error(const std::string& file, const Error& error) {
   return {exit_status(error.code), file + ": " + error.describe()};
 }
 
+ToolError tool_error(const Error& error) {
+  // Importers say the place in words; code, offset and section tell about streams only.
+  const bool has_place = error.byte_offset || error.frame || error.section[0] != '\0';
+  return {exit_status(error.code), has_place ? error.describe() : error.message};
+}
+
 }  // namespace tvg::cli

@@ -24,4 +24,7 @@ class ToolError : public std::runtime_error {
 /// A library error that concerns a file, as the tool reports it.
 ToolError tool_error(const std::string& file, const Error& error);
 
+/// A library error whose message names the file already.
+ToolError tool_error(const Error& error);
+
 }  // namespace tvg::cli

@@ -48,7 +48,7 @@ std::unique_ptr<FrameSource> open_side(const std::string& path, const std::strin
 
 Result<bool> read(FrameSource& source, FramePositions& frame, const std::string& path) {
   const Result<bool> read = source.read_frame(frame);
-  if (!read) throw tool_error(path, read.error());
+  if (!read) throw is_stream(path) ? tool_error(path, read.error()) : tool_error(read.error());
   return read;
 }
 

@@ -154,8 +154,9 @@ class DecodeJob {
     if (wanted_ && affected == 0) return;
     const std::string text = fmt::format("{}: {}{}", reader_.name(), where, damage.error.describe());
     if (!arguments_.conceal) {
-      throw ToolError(ExitStatus::kInvalidInput,
-                      text + "; nothing was written (--conceal holds the last good frame instead)");
+      throw ToolError(
+          ExitStatus::kInvalidInput,
+          fmt::format("{}; {} (--conceal holds the last good frame instead)", text, what_is_left()));
     }
     fmt::print(stderr, "tvg: {}\n", text);
     lost_ += affected;
@@ -168,6 +169,13 @@ class DecodeJob {
       for (; affected > 0; --affected) sink_->write_frame(positions_);
     }
     if (wanted_ && next_frame_ > wanted_->last) done_ = true;
+  }
+
+  /// What a user finds after a failure. Of a sequence, files before the failure are whole and stay.
+  std::string what_is_left() const {
+    if (arguments_.output == "-") return "the output is not complete";
+    const std::vector<std::string>& files = sink_->files();
+    return files.empty() ? "nothing was written" : fmt::format("{} is the last file written", files.back());
   }
 
   void fail_or_stop(const Error& error) {

@@ -91,6 +91,29 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   return options;
 }
 
+/// Passes frames on and keeps the source's own error, which names its file: the encoder's do not.
+class WatchedSource final : public FrameSource {
+ public:
+  explicit WatchedSource(FrameSource& source) : source_(source) {}
+
+  const Mesh& mesh() const override { return source_.mesh(); }
+  Metadata metadata() const override { return source_.metadata(); }
+  std::optional<std::uint64_t> frame_count() const override { return source_.frame_count(); }
+  Result<bool> read_frame(std::span<float> positions) override {
+    Result<bool> read = source_.read_frame(positions);
+    if (!read) error_ = read.error();
+    return read;
+  }
+  bool rewind() override { return source_.rewind(); }
+
+  /// What read_frame() failed with, if it did.
+  const std::optional<Error>& error() const { return error_; }
+
+ private:
+  FrameSource& source_;
+  std::optional<Error> error_;
+};
+
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
   SourceSpec spec{arguments.inputs, {}};
@@ -112,11 +135,14 @@ void run_encode(const EncodeArguments& arguments) {
   const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
     bar.update(frames, total);
   };
-  const Result<EncodeReport> report = encode(*opened.source, options, sink, progress);
+  WatchedSource source(*opened.source);
+  const Result<EncodeReport> report = encode(source, options, sink, progress);
+  if (source.error()) throw tool_error(*source.error());
   if (!report) throw tool_error(fmt::format("{}", fmt::join(arguments.inputs, ", ")), report.error());
   file.finish();
 
   if (arguments.quiet) return;
+  bar.clear();
   if (report->box_of_each_gop) {
     fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
   }
@@ -124,7 +150,8 @@ void run_encode(const EncodeArguments& arguments) {
   fmt::print(
       stderr,
       "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
-      arguments.output, report->frames, report->vertices, report->gops, readable_bytes(report->bytes),
+      arguments.output == "-" ? "standard output" : arguments.output, report->frames, report->vertices,
+      report->gops, readable_bytes(report->bytes),
       bits_per_coordinate(report->bytes, report->vertices, report->frames),
       static_cast<double>(raw) / static_cast<double>(report->bytes));
 }

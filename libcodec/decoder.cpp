@@ -11,6 +11,15 @@
 
 namespace tvg {
 
+namespace {
+
+/// The message is short enough for std::string to hold it without an allocation, which would fail too.
+Error out_of_memory() {
+  return {ErrorCode::kOutOfMemory, "out of memory", {}, {}, ""};
+}
+
+}  // namespace
+
 /// The decoding pipeline: bytes → chunks → packets → lattice. Each phase consumes a whole structure or asks
 /// for more bytes; each call of step() yields at most one event.
 class Decoder::State {
@@ -34,6 +43,7 @@ class Decoder::State {
     phase = Phase::kChunkHeader;
     deferred.reset();
     unreported_loss.reset();
+    searched = false;
     position = frame;
     lost_anything = true;  // chunks were passed over: the index cannot be compared with what was seen
     input_finished = false;
@@ -88,7 +98,7 @@ class Decoder::State {
   std::optional<Event> read_payload();
   std::optional<Event> skip_payload();
   std::optional<Event> read_packet();
-  std::optional<Event> begin_gop(Bytes packet);
+  std::optional<Event> begin_gop(Bytes packet, std::size_t total_bytes);
   std::optional<Event> decode_frame(Bytes packet, std::size_t total_bytes);
   std::optional<Event> end_gop();
   std::optional<Event> resynchronize();
@@ -107,8 +117,10 @@ class Decoder::State {
   Event truncated();
   std::uint64_t frames_left_in_gop() const;
   Event report_loss(std::uint64_t frames, Error cause);
-  std::optional<Event> lose_rest(Error cause);
-  void begin_resync();
+  Event report_doubt(Error cause);
+  std::optional<Event> lose_rest(Error cause, std::size_t passed = 1);
+  std::optional<Event> lose_unproven(Error cause, std::size_t size);
+  void begin_resync(std::size_t passed);
 
   DecoderLimits caller_limits;
   Phase phase = Phase::kStart;
@@ -129,7 +141,9 @@ class Decoder::State {
   std::uint64_t expected_label = 0;      ///< first_frame of the next GOP, if nothing was cut out
   std::optional<Error> unreported_loss;  ///< damage of unknown extent: the next GOP or the index tells
   bool lost_anything = false;
-  std::vector<IndexEntry> seen;  ///< what the index should hold
+  bool searched = false;           ///< chunks may have been passed over since the last GOP
+  std::uint64_t read_in_vain = 0;  ///< bytes of structures that did not fit their checksums
+  std::vector<IndexEntry> seen;    ///< what the index should hold
 };
 
 std::optional<Decoder::Event> Decoder::State::step() {
@@ -191,22 +205,44 @@ Decoder::Event Decoder::State::report_loss(std::uint64_t frames, Error cause) {
   return Event::kDamage;
 }
 
+/// The frames of the current GOP were given out, but are not what was encoded.
+Decoder::Event Decoder::State::report_doubt(Error cause) {
+  lost_anything = true;
+  cause.byte_offset = chunk_offset;
+  cause.frame = gop_info.first_frame;
+  damage = {gop_info.first_frame, gop_info.frame_count, std::move(cause)};
+  return Event::kDamage;
+}
+
 /// The rest of the structure being read is lost: looks for the next chunk. How many frames are gone is known
-/// inside a GOP; elsewhere the next GOP or the index will tell.
-std::optional<Decoder::Event> Decoder::State::lose_rest(Error cause) {
+/// inside a GOP; elsewhere the next GOP or the index will tell. The search begins `passed` bytes on: behind a
+/// structure whose checksum fits, since its extent is then known.
+std::optional<Decoder::Event> Decoder::State::lose_rest(Error cause, std::size_t passed) {
   if (!has_head) return fail(std::move(cause));
   if (!cause.byte_offset) cause.byte_offset = offset;
   const std::uint64_t frames = frames_left_in_gop();
-  begin_resync();
+  begin_resync(passed);
   if (frames > 0) return report_loss(frames, std::move(cause));
   lost_anything = true;
   if (!unreported_loss) unreported_loss = std::move(cause);
   return std::nullopt;
 }
 
-void Decoder::State::begin_resync() {
+/// A structure of `size` bytes does not fit its checksum. The next chunk may begin inside it, where bytes are
+/// missing; but a stream may be made so that every byte begins a structure, so that there is a limit to how
+/// often its bytes are read again.
+std::optional<Decoder::Event> Decoder::State::lose_unproven(Error cause, std::size_t size) {
+  constexpr std::uint64_t kAlwaysAllowed = 1u << 24;
+  constexpr std::uint64_t kPasses = 8;
+  read_in_vain += size;
+  const bool too_often = read_in_vain > kAlwaysAllowed + kPasses * offset;
+  return lose_rest(std::move(cause), too_often ? size : 1);
+}
+
+void Decoder::State::begin_resync(std::size_t passed) {
   phase = Phase::kResync;
-  consume(std::min<std::size_t>(1, available().size()));
+  searched = true;
+  consume(std::min(passed, available().size()));
 }
 
 // format-spec §3.1
@@ -259,6 +295,7 @@ std::optional<Decoder::Event> Decoder::State::read_chunk_start() {
       return lose_rest({ErrorCode::kMalformed, "a chunk is too long", {}, {}, "§3.2"});
   } else if (chunk.type == kMeshChunk) {
     phase = Phase::kPayload;
+    has_mesh = false;  // whatever becomes of this mesh, the GOPs that follow are not the last one's
     if (chunk.length > mesh_bytes)
       return lose_rest({ErrorCode::kMalformed, "the mesh is too long", {}, {}, "§4.3"});
   } else if (chunk.type == kIndexChunk) {
@@ -283,11 +320,12 @@ std::optional<Decoder::Event> Decoder::State::read_payload() {
   const Bytes payload = available().first(chunk.length);
   const std::uint32_t expected = ByteReader(available().subspan(chunk.length)).u32();
   if (expected != checksum(payload)) {
-    return lose_rest({ErrorCode::kChecksumMismatch,
-                      "chunk '" + std::string(chunk.type.begin(), chunk.type.end()) + "' is damaged",
-                      chunk_offset,
-                      {},
-                      "§3.3"});
+    return lose_unproven({ErrorCode::kChecksumMismatch,
+                          "chunk '" + std::string(chunk.type.begin(), chunk.type.end()) + "' is damaged",
+                          chunk_offset,
+                          {},
+                          "§3.3"},
+                         size);
   }
   phase = Phase::kChunkHeader;
   std::optional<Event> event;
@@ -295,7 +333,7 @@ std::optional<Decoder::Event> Decoder::State::read_payload() {
     event = use_head(payload);
   } else if (chunk.type == kMetadataChunk) {
     Result<Metadata> read = read_metadata(payload);
-    if (!read) return lose_rest(read.error());
+    if (!read) return lose_rest(read.error(), size);
     metadata = std::move(*read);
     event = Event::kMetadata;
   } else if (chunk.type == kMeshChunk) {
@@ -304,7 +342,7 @@ std::optional<Decoder::Event> Decoder::State::read_payload() {
     event = use_index(payload);
   } else {
     const Result<std::uint64_t> distance = read_tail(payload);
-    if (!distance) return lose_rest(distance.error());
+    if (!distance) return lose_rest(distance.error(), size);
     phase = Phase::kTail;
   }
   if (phase != Phase::kFailed && phase != Phase::kResync) consume(size);
@@ -324,7 +362,8 @@ std::optional<Decoder::Event> Decoder::State::skip_payload() {
 // format-spec §4.1, §8.1
 std::optional<Decoder::Event> Decoder::State::use_head(Bytes payload) {
   if (has_head)
-    return lose_rest({ErrorCode::kMalformed, "the stream has a second head", chunk_offset, {}, "§3.4"});
+    return lose_rest({ErrorCode::kMalformed, "the stream has a second head", chunk_offset, {}, "§3.4"},
+                     payload.size() + kChunkChecksumSize);
   const Result<StreamHead> read = read_head(payload);
   if (!read) return fail(read.error());
   const StreamLimits& declared = read->limits;
@@ -355,11 +394,10 @@ std::optional<Decoder::Event> Decoder::State::use_head(Bytes payload) {
 
 // format-spec §4.3
 std::optional<Decoder::Event> Decoder::State::use_mesh(Bytes payload) {
-  has_mesh = false;
   Result<CodedMesh> decoded = decode_mesh(payload, head.limits);
   if (!decoded) {
     decoded.error().byte_offset = chunk_offset;
-    return lose_rest(decoded.error());
+    return lose_rest(decoded.error(), payload.size() + kChunkChecksumSize);
   }
   mesh = std::move(*decoded);
   has_mesh = true;
@@ -369,12 +407,14 @@ std::optional<Decoder::Event> Decoder::State::use_mesh(Bytes payload) {
 
 // format-spec §4.6
 std::optional<Decoder::Event> Decoder::State::use_index(Bytes payload) {
+  constexpr std::size_t kRoom = 1u << 15;  // entries that the declared memory has room for in any stream
+  if (ByteReader(payload).varint() > seen.size() + kRoom) return std::nullopt;
   Result<std::vector<IndexEntry>> read = read_index(payload);
-  if (!read) return lose_rest(read.error());
+  if (!read) return lose_rest(read.error(), payload.size() + kChunkChecksumSize);
   index = std::move(*read);
   std::uint64_t frames = 0;
   for (const IndexEntry& entry : index) frames += entry.frame_count;
-  if (unreported_loss || (!lost_anything && index != seen)) {
+  if (unreported_loss || (searched && frames > position) || (!lost_anything && index != seen)) {
     Error cause = unreported_loss
                       ? *std::exchange(unreported_loss, std::nullopt)
                       : Error{ErrorCode::kMalformed, "the index does not match the stream", {}, {}, "§4.6"};
@@ -399,47 +439,51 @@ std::optional<Decoder::Event> Decoder::State::read_packet() {
   const std::uint32_t expected = reader.u32();
   if (!reader.ok()) return need_bytes();
   const std::uint64_t seed = packet_index == 0 ? 0 : packet_seed(header_checksum, packet_index);
-  if (expected != checksum(packet, seed)) return lose_rest(damaged);
-
   const std::size_t total = prefix + packet.size() + kChunkChecksumSize;
+  if (expected != checksum(packet, seed)) return lose_unproven(damaged, total);
+
+  payload_hash.update(bytes.first(total));  // here, because beginning a GOP may move the buffer
   std::optional<Event> event;
   if (packet_index == 0) {
     header_checksum = expected;
-    event = begin_gop(packet);
+    event = begin_gop(packet, total);
   } else if (packet_index <= gop_info.frame_count) {
     event = decode_frame(packet, total);
   } else if (const Status digest = gop.check_digest(packet); !digest.ok() || payload_left != total) {
-    begin_resync();
-    Error cause = digest.ok() ? Error{ErrorCode::kMalformed, "bytes follow a GOP's digest", {}, {}, "§4.5"}
-                              : digest.error();
-    return report_loss(0, std::move(cause));
+    begin_resync(total);
+    if (!digest.ok()) return report_doubt(digest.error());
+    return report_loss(0, {ErrorCode::kMalformed, "bytes follow a GOP's digest", {}, {}, "§4.5"});
   } else {
     phase = Phase::kGopChecksum;
   }
   if (phase != Phase::kPacket && phase != Phase::kGopChecksum) return event;
   ++packet_index;
-  payload_hash.update(bytes.first(total));
   payload_left -= total;
   consume(total);
   return event;
 }
 
-std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet) {
+std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet, std::size_t total_bytes) {
   const Result<GopHeader> header = read_gop_header(packet);
-  if (!header) return lose_rest(header.error());
+  if (!header) return lose_rest(header.error(), total_bytes);
   std::uint64_t missing = 0;
-  if (unreported_loss && header->first_frame > expected_label) missing = header->first_frame - expected_label;
+  if (std::exchange(searched, false) && header->first_frame > expected_label) {
+    missing = header->first_frame - expected_label;
+    if (!unreported_loss) {
+      unreported_loss = Error{ErrorCode::kMalformed, "the damage reaches into the next GOP", {}, {}, "§8.3"};
+    }
+  }
   expected_label = header->first_frame + header->frame_count;
   if (!has_mesh) {
     Error cause = unreported_loss
                       ? *std::exchange(unreported_loss, std::nullopt)
                       : Error{ErrorCode::kMalformed, "a GOP comes before any mesh", {}, {}, "§3.4"};
-    begin_resync();
+    begin_resync(total_bytes);
     return report_loss(missing + header->frame_count, std::move(cause));
   }
   const Status begun = gop.begin(packet, mesh, head.limits);
   if (!begun.ok()) {
-    begin_resync();
+    begin_resync(total_bytes);
     unreported_loss.reset();
     return report_loss(missing + header->frame_count, begun.error());
   }
@@ -460,7 +504,11 @@ std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet) {
 
 std::optional<Decoder::Event> Decoder::State::decode_frame(Bytes packet, std::size_t total_bytes) {
   const Status decoded = measures_bits ? gop.decode_frame(packet, frame_bits) : gop.decode_frame(packet);
-  if (!decoded.ok()) return lose_rest(decoded.error());
+  if (!decoded.ok()) {  // the checksum fits, so what the packet was decoded from may be wrong already
+    position += frames_left_in_gop();
+    begin_resync(total_bytes);
+    return report_doubt(decoded.error());
+  }
   frame_number = position++;
   frame_bytes = total_bytes;
   return Event::kFrame;
@@ -516,7 +564,7 @@ void Decoder::push(std::span<const std::uint8_t> bytes) {
   try {
     state_->push(bytes);
   } catch (const std::bad_alloc&) {
-    state_->fail({ErrorCode::kOutOfMemory, "there is not enough memory for the bytes pushed", {}, {}, ""});
+    state_->fail(out_of_memory());
   }
 }
 
@@ -528,7 +576,7 @@ Decoder::Event Decoder::poll() {
   try {
     return state_->poll();
   } catch (const std::bad_alloc&) {
-    return state_->fail({ErrorCode::kOutOfMemory, "there is not enough memory for this stream", {}, {}, ""});
+    return state_->fail(out_of_memory());
   }
 }
 

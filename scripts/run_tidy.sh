@@ -6,7 +6,7 @@ build=$1
 shift
 folders=$(IFS="|"; echo "$*")
 log=$build/clang-tidy.log
-if ! run-clang-tidy -quiet -p "$build" -j "$(nproc)" "$PWD/($folders)/" >"$log" 2>&1; then
+if ! run-clang-tidy -quiet -extra-arg=-fno-color-diagnostics -p "$build" -j "$(nproc)" "$PWD/($folders)/" >"$log" 2>&1; then
   grep -vE '^clang-tidy|^[0-9]+ warnings? (generated|treated)|^Suppressed |^$' "$log" >&2 || cat "$log" >&2
   exit 1
 fi

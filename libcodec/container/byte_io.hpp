@@ -47,7 +47,7 @@ class ByteReader {
   std::uint64_t u64() { return little_endian(8); }
   double f64() { return std::bit_cast<double>(u64()); }
 
-  /// Refuses a varint that is not in its shortest form or does not fit 64 bits.
+  /// Refuses a varint that is not in its shortest form or does not fit 64 bits (format-spec §2.2).
   std::uint64_t varint() {
     std::uint64_t value = 0;
     for (int shift = 0; shift < 64; shift += 7) {

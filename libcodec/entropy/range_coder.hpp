@@ -37,13 +37,14 @@ class RangeEncoder {
 
   /// Codes one bit and adapts the model.
   bool code(AdaptiveBit& model, bool bit) {
-    const std::uint32_t zero = model.zero_frequency();
-    if (bit) {
-      encode(zero, (1u << kProbabilityBits) - zero);
-    } else {
-      encode(0, zero);
-    }
+    code_bit(model.zero_frequency(), bit);
     model.adapt(bit);
+    return bit;
+  }
+
+  /// Codes one bit, zero with the given frequency out of 1 << 15.
+  bool code_bit(std::uint32_t zero_frequency, bool bit) {
+    encode(bit ? zero_frequency : 0, bit ? (1u << kProbabilityBits) - zero_frequency : zero_frequency);
     return bit;
   }
 
@@ -95,15 +96,19 @@ class RangeDecoder {
   }
 
   bool code(AdaptiveBit& model, bool /*ignored*/ = false) {
-    const std::uint32_t unit = range_ >> kProbabilityBits;
-    const std::uint32_t zero = model.zero_frequency();
-    const bool bit = static_cast<std::uint32_t>(window_ >> 32) >= unit * zero;
-    if (bit) {
-      consume(unit, zero, (1u << kProbabilityBits) - zero);
-    } else {
-      consume(unit, 0, zero);
-    }
+    const bool bit = code_bit(model.zero_frequency());
     model.adapt(bit);
+    return bit;
+  }
+
+  bool code_bit(std::uint32_t zero_frequency, bool /*ignored*/ = false) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    const bool bit = static_cast<std::uint32_t>(window_ >> 32) >= unit * zero_frequency;
+    if (bit) {
+      consume(unit, zero_frequency, (1u << kProbabilityBits) - zero_frequency);
+    } else {
+      consume(unit, 0, zero_frequency);
+    }
     return bit;
   }
 

@@ -24,7 +24,8 @@ struct DecoderLimits {
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
 };
 
-/// A run of frames that could not be decoded.
+/// A run of frames that could not be decoded, or, with kDigestMismatch, frames that were given out but are not
+/// what was encoded.
 struct Damage {
   std::uint64_t first_frame = 0;  ///< position in the stream of the first frame lost
   std::uint64_t frame_count = 0;  ///< frames lost; 0 when nobody can know how many

@@ -1,0 +1,43 @@
+#include "tool_test_fixture.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace tvg::cli::testing {
+namespace {
+
+std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+TEST_F(ToolTest, TheReadmesDecoderExampleIsTheOneThatIsCompiledAndRuns) {
+  const std::string readme = read(std::string(TVG_PROJECT) + "/README.md");
+  const std::string example = read(std::string(TVG_PROJECT) + "/tests/readme/decode_frames.cpp");
+  ASSERT_FALSE(example.empty());
+  EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
+
+  good("tvg encode hand.obj hand.pc2 -o hand.tvg");
+  const Run frames = good(std::string(TVG_README_EXAMPLE) + " <hand.tvg");
+  EXPECT_EQ(std::count(frames.out.begin(), frames.out.end(), '\n'), static_cast<std::ptrdiff_t>(kFrames));
+  EXPECT_NEAR(std::stod(frames.out), hand_.frames[0][0], 0.01);
+}
+
+TEST_F(ToolTest, TheReadmeNamesEveryCommandAndOption) {
+  const std::string readme = read(std::string(TVG_PROJECT) + "/README.md");
+  for (const std::string command : {"encode", "decode", "info", "verify", "compare", "join"}) {
+    EXPECT_NE(readme.find("`tvg " + command), std::string::npos) << command;
+    std::istringstream words(good("tvg " + command + " --help").out);
+    for (std::string word; words >> word;) {
+      const std::size_t dashes = word.find("--");
+      if (dashes == std::string::npos) continue;
+      const std::string option = word.substr(dashes, word.find_first_of(",):", dashes) - dashes);
+      if (option == "--help") continue;
+      EXPECT_NE(readme.find(option), std::string::npos) << command << " " << option;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tvg::cli::testing

@@ -1,0 +1,52 @@
+#include "stream_facts.hpp"
+#include "streams.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <set>
+
+namespace tvg::conformance {
+namespace {
+
+const std::filesystem::path kFolder = TVG_CONFORMANCE_FOLDER;
+
+std::vector<std::uint8_t> read_stored(const std::string& name) {
+  std::ifstream file(kFolder / (name + ".tvg"), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::vector<NamedFacts> stored_facts() {
+  std::ifstream file(kFolder / "digests.txt");
+  return read_facts(file);
+}
+
+TEST(Conformance, EveryStoredStreamDecodesToItsDigests) {
+  const std::vector<NamedFacts> entries = stored_facts();
+  ASSERT_EQ(entries.size(), conformance_streams().size());
+  for (const NamedFacts& expected : entries) {
+    const Result<StreamFacts> facts = read_stream_facts(read_stored(expected.name));
+    ASSERT_TRUE(facts) << expected.name << ": " << facts.error().describe();
+    EXPECT_EQ(facts_line({expected.name, *facts}), facts_line(expected));
+  }
+}
+
+TEST(Conformance, TheEncoderStillMakesTheStoredBytes) {
+  std::set<std::string> names;
+  for (const ConformanceStream& stream : conformance_streams()) {
+    const std::string name(stream.name);
+    EXPECT_TRUE(stream.make() == read_stored(name))
+        << name << ": the format has changed; if that is meant, run tvg_make_conformance corpus/conformance";
+    names.insert(name);
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    if (entry.path().extension() != ".tvg") continue;
+    EXPECT_TRUE(names.contains(entry.path().stem())) << entry.path();
+    EXPECT_LE(entry.file_size(), 4096u) << entry.path() << " is too large for exhaustive damage";
+  }
+}
+
+}  // namespace
+}  // namespace tvg::conformance

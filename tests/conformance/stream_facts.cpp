@@ -1,0 +1,92 @@
+#include "stream_facts.hpp"
+
+#include "container/checksum.hpp"
+
+#include <cstdio>
+#include <iomanip>
+#include <sstream>
+
+#include <tvg/decoder.hpp>
+
+namespace tvg::conformance {
+
+namespace {
+
+std::span<const std::uint8_t> bytes_of(const auto& values) {
+  return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof values[0]};
+}
+
+}  // namespace
+
+Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream) {
+  Decoder decoder;
+  decoder.push(stream);
+  decoder.finish();
+  StreamFacts facts;
+  facts.bytes = stream.size();
+  Hasher lattice, positions, faces;
+  std::vector<std::int32_t> indices;
+  std::vector<float> coordinates;
+  for (;;) {
+    switch (decoder.poll()) {
+      case Decoder::Event::kMesh:
+        facts.vertices += decoder.mesh().vertex_count;
+        facts.faces += decoder.mesh().faces.size();
+        for (const Face& face : decoder.mesh().faces) faces.update(bytes_of(face));
+        indices.resize(3 * std::size_t{decoder.mesh().vertex_count});
+        coordinates.resize(indices.size());
+        break;
+      case Decoder::Event::kFrame:
+        ++facts.frames;
+        decoder.copy_lattice(indices);
+        decoder.copy_positions(coordinates.data());
+        lattice.update(indices);
+        positions.update(bytes_of(coordinates));
+        break;
+      case Decoder::Event::kDamage:
+        return decoder.damage().error;
+      case Decoder::Event::kError:
+        return decoder.error();
+      case Decoder::Event::kNeedBytes:
+        return Error{ErrorCode::kTruncated, "the decoder asks for bytes behind the end", {}, {}, ""};
+      case Decoder::Event::kEnd:
+        facts.lattice_digest = lattice.value();
+        facts.positions_digest = positions.value();
+        facts.faces_digest = faces.value();
+        return facts;
+      default:
+        break;
+    }
+  }
+}
+
+std::string facts_heading() {
+  return "# stream bytes frames vertices faces xxh64(lattice) xxh64(positions) xxh64(faces)";
+}
+
+std::string facts_line(const NamedFacts& entry) {
+  const StreamFacts& facts = entry.facts;
+  std::ostringstream line;
+  line << entry.name << ' ' << facts.bytes << ' ' << facts.frames << ' ' << facts.vertices << ' '
+       << facts.faces << std::hex << std::setfill('0');
+  for (const std::uint64_t digest : {facts.lattice_digest, facts.positions_digest, facts.faces_digest}) {
+    line << ' ' << std::setw(16) << digest;
+  }
+  return line.str();
+}
+
+std::vector<NamedFacts> read_facts(std::istream& file) {
+  std::vector<NamedFacts> entries;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    std::istringstream cells(line);
+    NamedFacts entry;
+    StreamFacts& facts = entry.facts;
+    cells >> entry.name >> facts.bytes >> facts.frames >> facts.vertices >> facts.faces >> std::hex >>
+        facts.lattice_digest >> facts.positions_digest >> facts.faces_digest;
+    if (cells) entries.push_back(entry);
+  }
+  return entries;
+}
+
+}  // namespace tvg::conformance

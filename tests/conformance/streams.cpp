@@ -1,0 +1,223 @@
+#include "streams.hpp"
+
+#include "container/layout.hpp"
+#include "container/stream_writer.hpp"
+#include "corpus/corpus.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include <tvg/encoder.hpp>
+
+namespace tvg::conformance {
+
+namespace {
+
+using Stream = std::vector<std::uint8_t>;
+
+[[noreturn]] void stop(const std::string& message) {
+  std::fprintf(stderr, "conformance stream: %s\n", message.c_str());
+  std::abort();
+}
+
+/// A source that stands for a pipe: no length, no way back.
+class PipeSource final : public FrameSource {
+ public:
+  explicit PipeSource(const Sequence& sequence) : source_(sequence) {}
+
+  const Mesh& mesh() const override { return source_.mesh(); }
+  std::optional<std::uint64_t> frame_count() const override { return std::nullopt; }
+  Result<bool> read_frame(std::span<float> positions) override { return source_.read_frame(positions); }
+  bool rewind() override { return false; }
+
+ private:
+  SequenceSource source_;
+};
+
+Stream encode_source(FrameSource& source, const EncodeOptions& options) {
+  Stream stream;
+  const auto report = encode(source, options, [&stream](std::span<const std::uint8_t> bytes) {
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+    return Status();
+  });
+  if (!report) stop(report.error().describe());
+  return stream;
+}
+
+Stream encode_sequence(const Sequence& sequence, const EncodeOptions& options) {
+  SequenceSource source(sequence);
+  return encode_source(source, options);
+}
+
+Sequence corpus_sequence(std::string_view name, std::uint32_t frames) {
+  const corpus::CorpusEntry* entry = corpus::find_corpus_entry(name);
+  if (entry == nullptr) stop("no sequence " + std::string(name));
+  Sequence sequence = entry->make({100, frames}).sequence;
+  sequence.metadata.clear();  // bytes that every stream would repeat
+  return sequence;
+}
+
+EncodeOptions options_of(int fine_bits, int coarse_bits, Predictor predictor, std::uint32_t gop_frames) {
+  EncodeOptions options;
+  options.fine_bits = fine_bits;
+  options.coarse_bits = coarse_bits;
+  options.predictor = predictor;
+  options.gop_frames = gop_frames;
+  return options;
+}
+
+/// One triangle that turns and grows a little in each frame, beside a vertex of no face.
+Sequence triangle(std::uint32_t frames) {
+  Sequence sequence;
+  sequence.mesh = {4, {{0, 1, 2}}};
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    const float t = static_cast<float>(f) / 8;
+    sequence.frames.push_back({0, 0, t, 1, t, 0, t * t, 1 + t, 0.5F, -1, -t, 2});
+  }
+  return sequence;
+}
+
+/// The larger of two streams' limits, in each.
+StreamLimits joint_limits(const std::vector<Stream>& streams) {
+  StreamLimits limits;
+  for (const Stream& stream : streams) {
+    const Bytes bytes = Bytes(stream).subspan(kSignature.size());
+    const auto header = read_chunk_header(bytes);
+    if (!header || header->type != kHeadChunk) stop("a stream does not begin with its head");
+    const auto head = read_head(bytes.subspan(kChunkHeaderSize, header->length));
+    if (!head) stop(head.error().describe());
+    limits.vertices = std::max(limits.vertices, head->limits.vertices);
+    limits.faces = std::max(limits.faces, head->limits.faces);
+    limits.frames_per_gop = std::max(limits.frames_per_gop, head->limits.frames_per_gop);
+    limits.packet_bytes = std::max(limits.packet_bytes, head->limits.packet_bytes);
+  }
+  limits.decoder_memory = decoder_memory_needed(limits);
+  return limits;
+}
+
+Status copy_meshes_and_gops(Bytes stream, StreamWriter& writer) {
+  Status status;
+  for (Bytes rest = stream.subspan(kSignature.size()); status.ok() && !rest.empty();) {
+    const auto header = read_chunk_header(rest);
+    if (!header) stop("a stream to be joined is damaged");
+    const Bytes chunk = rest.first(static_cast<std::size_t>(header->total_size()));
+    if (header->type == kMeshChunk) status = writer.write_mesh_chunk(chunk);
+    if (header->type == kGopChunk) {
+      ByteReader packet(chunk.subspan(kChunkHeaderSize));
+      const auto gop = read_gop_header(packet.bytes(packet.varint()));
+      if (!gop) stop(gop.error().describe());
+      status = writer.write_gop_chunk(chunk, gop->frame_count);
+    }
+    rest = rest.subspan(chunk.size());
+  }
+  return status;
+}
+
+/// The meshes and GOPs of several streams under one head, with `between` in front of each stream's.
+Stream join(const std::vector<Stream>& streams, Bytes between = {}) {
+  Stream joined;
+  StreamWriter writer([&joined](Bytes bytes) {
+    joined.insert(joined.end(), bytes.begin(), bytes.end());
+    return Status();
+  });
+  Status status = writer.write(kSignature);
+  if (status.ok()) status = writer.write(write_chunk(kHeadChunk, false, write_head(joint_limits(streams))));
+  for (const Stream& stream : streams) {
+    if (status.ok()) status = writer.write(between);
+    if (status.ok()) status = copy_meshes_and_gops(stream, writer);
+  }
+  if (status.ok()) status = writer.write_end();
+  if (!status.ok()) stop(status.error().describe());
+  return joined;
+}
+
+Stream make_uniform(std::string_view name, std::uint32_t frames, int bits, Predictor predictor) {
+  return encode_sequence(corpus_sequence(name, frames), options_of(bits, bits, predictor, 50));
+}
+
+Stream make_pipe() {
+  const Sequence sequence = corpus_sequence("cloth", 6);
+  PipeSource source(sequence);
+  return encode_source(source, options_of(6, 6, Predictor::kElp, 2));
+}
+
+Stream make_metadata() {
+  EncodeOptions options = options_of(6, 6, Predictor::kElp, 2);
+  options.metadata = {
+      {"fps", "30000/1001"}, {"name", "dreieck \xC3\xA4"}, {"note", ""}, {"units", "cm"}, {"up", "y"}};
+  options.first_frame = 1000;
+  return encode_sequence(triangle(5), options);
+}
+
+Stream make_reordered() {
+  EncodeOptions options = options_of(7, 7, Predictor::kElp, 50);
+  options.keep_vertex_order = false;
+  return encode_sequence(corpus_sequence("soup", 3), options);
+}
+
+Stream make_step() {
+  EncodeOptions options = options_of(4, 2, Predictor::kElp, 3);
+  options.step = 0.125;
+  return encode_sequence(triangle(7), options);
+}
+
+Stream make_points() {
+  Sequence points = triangle(4);
+  points.mesh.faces.clear();
+  return encode_sequence(points, options_of(10, 8, Predictor::kTime, 50));
+}
+
+}  // namespace
+
+const std::vector<ConformanceStream>& conformance_streams() {
+  static const std::vector<ConformanceStream> streams = {
+      {"triangle", "the least there can be: one face, one frame",
+       [] { return encode_sequence(triangle(1), options_of(8, 8, Predictor::kElp, 50)); }},
+      {"points", "vertices without a face, on two lattices", make_points},
+      {"metadata", "metadata; frames cut out of a longer sequence; GOPs of two frames, the last of one",
+       make_metadata},
+      {"step", "a lattice given by its step, hybrid", make_step},
+      {"elp", "predictor elp, one lattice", [] { return make_uniform("face", 6, 7, Predictor::kElp); }},
+      {"space", "predictor space", [] { return make_uniform("face", 3, 7, Predictor::kSpace); }},
+      {"time", "predictor time", [] { return make_uniform("face", 6, 7, Predictor::kTime); }},
+      {"hybrid", "predictor elp, two lattices",
+       [] { return encode_sequence(corpus_sequence("hand", 4), options_of(8, 6, Predictor::kElp, 50)); }},
+      {"hybrid_space", "predictor space, two lattices far apart",
+       [] { return encode_sequence(corpus_sequence("cloth", 3), options_of(9, 1, Predictor::kSpace, 50)); }},
+      {"hybrid_time", "predictor time, two lattices, several GOPs",
+       [] { return encode_sequence(corpus_sequence("cloth", 5), options_of(7, 6, Predictor::kTime, 2)); }},
+      {"gops", "several GOPs, the last of one frame",
+       [] { return encode_sequence(corpus_sequence("cloth", 7), options_of(6, 6, Predictor::kElp, 2)); }},
+      {"pipe", "a lattice of its own for each GOP", make_pipe},
+      {"toy", "many closed components", [] { return make_uniform("toy", 2, 5, Predictor::kElp); }},
+      {"soup", "all that a mesh can do wrong, its order kept",
+       [] { return make_uniform("soup", 3, 6, Predictor::kElp); }},
+      {"reordered", "the same mesh with its vertex order given up", make_reordered},
+      {"one_bit", "the coarsest lattice", [] { return make_uniform("hand", 4, 1, Predictor::kElp); }},
+      {"finest", "the finest lattice, 24 bits", [] { return make_uniform("cloth", 2, 24, Predictor::kElp); }},
+      {"finest_hybrid", "the two lattices furthest apart, 24 and 1 bits",
+       [] { return encode_sequence(corpus_sequence("cloth", 3), options_of(24, 1, Predictor::kElp, 50)); }},
+      {"two_meshes", "connectivity that changes",
+       [] {
+         return join({make_uniform("cloth", 2, 6, Predictor::kElp), make_step()});
+       }},
+      {"unknown_chunk", "an ancillary chunk of a type that nobody knows",
+       [] {
+         constexpr std::array<std::uint8_t, 2> kNote = {'h', 'i'};
+         return join({make_step()}, write_chunk({'n', 'o', 't', 'e'}, true, kNote));
+       }},
+  };
+  return streams;
+}
+
+std::vector<std::uint8_t> make_stream(std::string_view name) {
+  for (const ConformanceStream& stream : conformance_streams()) {
+    if (stream.name == name) return stream.make();
+  }
+  stop("no stream " + std::string(name));
+}
+
+}  // namespace tvg::conformance

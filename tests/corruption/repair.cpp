@@ -1,0 +1,93 @@
+#include "repair.hpp"
+
+#include "container/checksum.hpp"
+#include "container/layout.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tvg::corruption {
+
+namespace {
+
+constexpr std::size_t kLengthOffset = 8;
+constexpr std::size_t kHeaderChecksumOffset = 12;
+
+void put_u32(std::span<std::uint8_t> target, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) target[i] = static_cast<std::uint8_t>(value >> (8 * i));
+}
+
+std::uint32_t get_u32(Bytes source) {
+  return ByteReader(source).u32();
+}
+
+bool known_type_at(Bytes bytes) {
+  constexpr std::array kKnown = {kHeadChunk, kMetadataChunk, kMeshChunk, kGopChunk, kIndexChunk, kTailChunk};
+  return std::any_of(kKnown.begin(), kKnown.end(), [bytes](const ChunkType& type) {
+    return std::equal(type.begin(), type.end(), bytes.begin(), [](char letter, std::uint8_t byte) {
+      return static_cast<std::uint8_t>(letter) == byte;
+    });
+  });
+}
+
+std::vector<Extent> find_packets(Bytes stream, Extent payload) {
+  std::vector<Extent> packets;
+  while (payload.size > 0) {
+    ByteReader reader(stream.subspan(payload.begin, payload.size));
+    reader.bytes(reader.varint());
+    reader.u32();
+    if (!reader.ok()) break;
+    packets.push_back({payload.begin, reader.position()});
+    payload = {payload.begin + reader.position(), payload.size - reader.position()};
+  }
+  return packets;
+}
+
+}  // namespace
+
+std::vector<ChunkExtent> find_chunks(std::span<const std::uint8_t> stream) {
+  std::vector<ChunkExtent> chunks;
+  constexpr std::size_t kFrame = kChunkHeaderSize + kChunkChecksumSize;
+  for (std::size_t begin = kSignature.size(); begin <= stream.size() && stream.size() - begin >= kFrame;) {
+    const std::uint32_t length = get_u32(stream.subspan(begin + kLengthOffset));
+    if (length > stream.size() - begin - kFrame) break;
+    ChunkExtent chunk{static_cast<char>(stream[begin]), {begin, kFrame + length}, {}};
+    if (chunk.type == 'G') chunk.packets = find_packets(stream, {begin + kChunkHeaderSize, length});
+    begin = chunk.whole.end();
+    chunks.push_back(std::move(chunk));
+  }
+  return chunks;
+}
+
+void repair_lengths(std::span<std::uint8_t> stream) {
+  constexpr std::size_t kFrame = kChunkHeaderSize + kChunkChecksumSize;
+  for (std::size_t begin = kSignature.size(); begin + kFrame <= stream.size();) {
+    std::size_t next = begin + kFrame;
+    while (next + kFrame <= stream.size() && !known_type_at(stream.subspan(next))) ++next;
+    if (next + kFrame > stream.size()) next = stream.size();
+    put_u32(stream.subspan(begin + kLengthOffset), static_cast<std::uint32_t>(next - begin - kFrame));
+    begin = next;
+  }
+}
+
+void repair_checksums(std::span<std::uint8_t> stream) {
+  for (const ChunkExtent& chunk : find_chunks(stream)) {
+    const auto bytes = stream.subspan(chunk.whole.begin, chunk.whole.size);
+    put_u32(bytes.subspan(kHeaderChecksumOffset), checksum(bytes.first(kHeaderChecksumOffset)));
+    std::uint32_t header_checksum = 0;
+    for (std::size_t k = 0; k < chunk.packets.size(); ++k) {
+      const auto packet = stream.subspan(chunk.packets[k].begin, chunk.packets[k].size);
+      ByteReader reader(packet);
+      const Bytes content = reader.bytes(reader.varint());
+      const std::uint64_t seed = k == 0 ? 0 : packet_seed(header_checksum, static_cast<std::uint32_t>(k));
+      const std::uint32_t sum = checksum(content, seed);
+      if (k == 0) header_checksum = sum;
+      put_u32(packet.last(kChunkChecksumSize), sum);
+    }
+    const auto payload =
+        bytes.subspan(kChunkHeaderSize, bytes.size() - kChunkHeaderSize - kChunkChecksumSize);
+    put_u32(bytes.last(kChunkChecksumSize), checksum(payload));
+  }
+}
+
+}  // namespace tvg::corruption

@@ -1,0 +1,88 @@
+#include "container/layout.hpp"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+// tvg_make_seeds STREAMS FOLDER: turns the streams of a folder into seeds in FOLDER/decoder_fuzz and
+// FOLDER/connectivity_fuzz.
+namespace {
+
+namespace fs = std::filesystem;
+
+bool write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) std::fprintf(stderr, "tvg_make_seeds: cannot write %s\n", path.c_str());
+  return static_cast<bool>(file);
+}
+
+/// The decoder's seeds: options and size of pieces in front of the stream.
+bool write_decoder_seeds(const fs::path& folder, const std::string& name,
+                         const std::vector<std::uint8_t>& stream) {
+  constexpr std::array<std::array<std::uint8_t, 2>, 3> kStarts = {{{0, 1}, {2, 0}, {3, 61}}};
+  for (const auto& start : kStarts) {
+    std::vector<std::uint8_t> seed(start.begin(), start.end());
+    seed.insert(seed.end(), stream.begin(), stream.end());
+    if (!write_file(folder / (name + "-" + std::to_string(start[0])), seed)) return false;
+  }
+  return true;
+}
+
+/// The connectivity decoder's seeds: one for each mesh, in the layout that connectivity_fuzz.cpp gives.
+bool write_connectivity_seeds(const fs::path& folder, const std::string& name, tvg::Bytes stream) {
+  int number = 0;
+  for (tvg::Bytes rest = stream.subspan(tvg::kSignature.size()); !rest.empty();) {
+    const auto header = tvg::read_chunk_header(rest);
+    if (!header || header->total_size() > rest.size()) return false;
+    if (header->type == tvg::kMeshChunk) {
+      const auto mesh = tvg::read_mesh(rest.subspan(tvg::kChunkHeaderSize, header->length));
+      if (!mesh) return false;
+      tvg::ByteWriter seed;
+      seed.u16(static_cast<std::uint16_t>(mesh->vertex_count));
+      seed.u16(static_cast<std::uint16_t>(mesh->face_count));
+      seed.u16(static_cast<std::uint16_t>(mesh->connectivity.size()));
+      seed.bytes(mesh->connectivity);
+      seed.bytes(mesh->order);
+      if (!write_file(folder / (name + "-" + std::to_string(number++)), seed.take())) return false;
+    }
+    rest = rest.subspan(static_cast<std::size_t>(header->total_size()));
+  }
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: tvg_make_seeds STREAMS FOLDER\n");
+    return 1;
+  }
+  const fs::path target = argv[2];
+  std::error_code failed;
+  fs::create_directories(target / "decoder_fuzz", failed);
+  fs::create_directories(target / "connectivity_fuzz", failed);
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(argv[1], failed)) {
+    if (entry.path().extension() != ".tvg") continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::vector<std::uint8_t> stream{std::istreambuf_iterator<char>(file),
+                                           std::istreambuf_iterator<char>()};
+    const std::string name = entry.path().stem();
+    if (stream.size() < tvg::kSignature.size() ||
+        !write_decoder_seeds(target / "decoder_fuzz", name, stream) ||
+        !write_connectivity_seeds(target / "connectivity_fuzz", name, stream)) {
+      std::fprintf(stderr, "tvg_make_seeds: no seeds from %s\n", entry.path().c_str());
+      return 3;
+    }
+    ++count;
+  }
+  if (count == 0) std::fprintf(stderr, "tvg_make_seeds: no streams in %s\n", argv[1]);
+  return count > 0 ? 0 : 3;
+}

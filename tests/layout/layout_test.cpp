@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+// Promises about the source tree itself.
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = TVG_SOURCE_DIR;
+
+std::string read(const fs::path& path) {
+  std::ifstream file(path);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> matches(const std::string& text, const std::string& pattern) {
+  const std::regex regex(pattern);
+  std::set<std::string> found;
+  for (std::sregex_iterator i(text.begin(), text.end(), regex), end; i != end; ++i) found.insert((*i)[1]);
+  return found;
+}
+
+/// The sources of the decoder's library and every header of the project that they reach.
+std::set<fs::path> decoder_files() {
+  std::vector<fs::path> left;
+  std::istringstream sources(TVG_DECODER_SOURCES);
+  for (std::string source; std::getline(sources, source, ',');) left.push_back(kRoot / "libcodec" / source);
+  std::set<fs::path> reached;
+  while (!left.empty()) {
+    const fs::path file = left.back();
+    left.pop_back();
+    if (!reached.insert(file).second) continue;
+    const std::string text = read(file);
+    for (const std::string& name : matches(text, "#include \"([^\"]+)\"")) left.push_back(kRoot / "libcodec" / name);
+    for (const std::string& name : matches(text, "#include <(tvg/[^>]+)>")) {
+      left.push_back(kRoot / "libcodec/include" / name);
+    }
+  }
+  return reached;
+}
+
+TEST(Layout, DecoderReachesNoEncoderHeader) {
+  const std::set<fs::path> files = decoder_files();
+  ASSERT_GT(files.size(), 15u);
+  const std::regex encoder_only("_encode\\.|encoder\\.|/measure/|/metrics/|/simplify/|bounding_box|stream_writer");
+  for (const fs::path& file : files) {
+    const std::string name = fs::relative(file, kRoot).generic_string();
+    EXPECT_FALSE(std::regex_search(name, encoder_only)) << name;
+  }
+}
+
+TEST(Layout, DecoderIncludesNoLibraryButXxhash) {
+  for (const fs::path& file : decoder_files()) {
+    for (const std::string& header : matches(read(file), "#include <([^>]+)>")) {
+      const bool standard = header.find('/') == std::string::npos && header.find('.') == std::string::npos;
+      const bool own = header.rfind("tvg/", 0) == 0;
+      EXPECT_TRUE(standard || own || header == "xxhash.h" || header == "emmintrin.h") << header << " in " << file;
+    }
+  }
+}
+
+TEST(Layout, EverySectionThatCodeNamesStandsInTheSpecification) {
+  const std::set<std::string> headings = matches(read(kRoot / "format-spec/tvg.md"), "\n#+ ([0-9]+(?:\\.[0-9]+)*)");
+  ASSERT_GT(headings.size(), 30u);
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "libcodec")) {
+    if (!entry.is_regular_file()) continue;
+    for (const std::string& section : matches(read(entry.path()), "§([0-9]+(?:\\.[0-9]+)*)")) {
+      EXPECT_TRUE(headings.count(section)) << "§" << section << " in " << entry.path();
+    }
+  }
+}
+
+TEST(Layout, EverySectionOfTheSpecificationIsNamedInCode) {
+  std::set<std::string> named;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "libcodec")) {
+    if (entry.is_regular_file()) named.merge(matches(read(entry.path()), "§([0-9]+(?:\\.[0-9]+)*)"));
+  }
+  // Sections that say nothing a decoder does by itself; a section of four levels belongs to the one above.
+  const std::set<std::string> without_code = {"2.1", "4.4"};
+  const std::set<std::string> headings =
+      matches(read(kRoot / "format-spec/tvg.md"), "\n### ([0-9]+\\.[0-9]+)");
+  for (const std::string& section : headings) {
+    if (without_code.count(section) == 0) EXPECT_TRUE(named.count(section)) << "§" << section << " has no code";
+  }
+}
+
+}  // namespace
