@@ -8,7 +8,25 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <string>
 #include <system_error>
+#include <vector>
+
+namespace {
+
+/// What to say where no command is named, or one that does not exist.
+std::string command_wanted(CLI::App& tool) {
+  std::string message = "tvg: ";
+  const std::vector<std::string> unknown = tool.remaining();
+  if (!unknown.empty()) message += unknown.front() + " is no command: ";
+  message += "name one of";
+  for (const CLI::App* command : tool.get_subcommands([](CLI::App*) { return true; })) {
+    message += " " + command->get_name();
+  }
+  return message;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace tvg::cli;
@@ -31,6 +49,11 @@ int main(int argc, char** argv) {
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
     return static_cast<int>(ExitStatus::kSuccess);
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError) &&
+        tool.get_subcommands().empty()) {
+      std::cerr << command_wanted(tool) << '\n';
+      return static_cast<int>(ExitStatus::kUsage);
+    }
     const bool asked_for_help = tool.exit(error) == 0;
     return static_cast<int>(asked_for_help ? ExitStatus::kSuccess : ExitStatus::kUsage);
   } catch (const ToolError& error) {

@@ -426,21 +426,23 @@ std::optional<Decoder::Event> Decoder::State::use_index(Bytes payload) {
 // format-spec §4.5
 std::optional<Decoder::Event> Decoder::State::read_packet() {
   const Bytes bytes = available();
-  const Error damaged{ErrorCode::kChecksumMismatch, "a packet is damaged", {}, {}, "§4.5"};
+  const auto damaged = [] {
+    return Error{ErrorCode::kChecksumMismatch, "a packet is damaged", {}, {}, "§4.5"};
+  };
   ByteReader reader(
       bytes.first(static_cast<std::size_t>(std::min<std::uint64_t>(bytes.size(), payload_left))));
   const std::uint64_t size = reader.varint();
   if (!reader.ok())
-    return bytes.size() < std::min<std::uint64_t>(10, payload_left) ? need_bytes() : lose_rest(damaged);
+    return bytes.size() < std::min<std::uint64_t>(10, payload_left) ? need_bytes() : lose_rest(damaged());
   const std::size_t prefix = reader.position();
   if (size > head.limits.packet_bytes || size + prefix + kChunkChecksumSize > payload_left)
-    return lose_rest(damaged);
+    return lose_rest(damaged());
   const Bytes packet = reader.bytes(size);
   const std::uint32_t expected = reader.u32();
   if (!reader.ok()) return need_bytes();
   const std::uint64_t seed = packet_index == 0 ? 0 : packet_seed(header_checksum, packet_index);
   const std::size_t total = prefix + packet.size() + kChunkChecksumSize;
-  if (expected != checksum(packet, seed)) return lose_unproven(damaged, total);
+  if (expected != checksum(packet, seed)) return lose_unproven(damaged(), total);
 
   payload_hash.update(bytes.first(total));  // here, because beginning a GOP may move the buffer
   std::optional<Event> event;

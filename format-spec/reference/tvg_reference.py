@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
-It follows the order of the specification and uses the names of its fields. It does not recover from damage (§8.3): the
-first violation ends it, with the number of the section that is violated. Python 3, standard library only.
+It follows the order of the specification and uses its names. It does not recover from damage (§8.3): the first
+violation ends it, with the number of the section that is violated. Python 3, standard library only.
 
     python3 tvg_reference.py FILE.tvg [--digests]
 
-prints one JSON object: the number of frames; vertices and faces of each mesh; the metadata; and the SHA-256 of all faces,
-of all lattice indices and of all positions in output order. With --digests also the digest of each GOP (§7.6).
-Exit status: 0, or 2 (usage, file cannot be read), or 3 (the stream is not valid).
+prints one JSON object: the number of frames; vertices and faces of each mesh; the metadata; and the SHA-256 of all
+faces (u32), lattice indices (i32) and positions (binary32) in output order. With --digests also the digest of each GOP
+(§7.6).
+Exit status: 0; 2 usage, or the file cannot be read; 3 the stream is not valid.
 """
-
 import hashlib
 import json
 import math
@@ -18,68 +18,45 @@ import struct
 import sys
 from bisect import bisect_left
 
-
 class Invalid(Exception):
     """The stream violates a section of the specification."""
-
-    def __init__(self, section, what, kind="malformed"):
-        super().__init__(f"section {section}: {kind}: {what}")
-
 
 def require(condition, section, what, kind="malformed"):
     """Refuse the stream unless the condition holds."""
     if not condition:
-        raise Invalid(section, what, kind)
-
+        raise Invalid(f"section {section}: {kind}: {what}")
 
 # 1. Terms and conventions
-
 NONE = 0xFFFFFFFF
-
 
 def clamp(x, a, b):
     """The nearest value to x in a..b."""
     return max(a, min(x, b))
 
-
-def half(x):
-    """trunc(x / 2)."""
-    return x // 2 if x >= 0 else -(-x // 2)
-
-
 # 2. Primitive types
-
 class Reader:
-    """Reads the values of §2.1 and §2.2 from bytes; too few of them violate the section given."""
-
+    """Reads the values of §2.1 and §2.2 from bytes; too few, or bytes left over, violate the section given."""
     def __init__(self, data, section):
         self.data, self.at, self.section = data, 0, section
 
-    def left(self):
-        return len(self.data) - self.at
-
     def take(self, size):
-        require(size <= self.left(), self.section, "too few bytes")
+        require(size <= len(self.data) - self.at, self.section, "too few bytes")
         self.at += size
         return self.data[self.at - size:self.at]
 
     def rest(self):
-        return self.take(self.left())
+        return self.take(len(self.data) - self.at)
 
     def end(self):
-        require(self.left() == 0, self.section, "bytes left over (section 4)")
+        require(self.at == len(self.data), self.section, "bytes left over (section 4)")
 
-    # 2.1 Fixed-size values
-
-    def unsigned(self, size):
+    def unsigned(self, size):  # 2.1 Fixed-size values
         return int.from_bytes(self.take(size), "little")
 
     def f64(self):
         return struct.unpack("<d", self.take(8))[0]
 
-    # 2.2 Varint
-
-    def varint(self):
+    def varint(self):  # 2.2 Varint
         value = 0
         for i in range(10):
             byte = self.unsigned(1)
@@ -89,132 +66,109 @@ class Reader:
                 require(byte > 0 or i == 0, "2.2", "varint is not in its shortest form")
                 return value
 
-
 # 2.3 Checksum
-
-MASK64 = 2 ** 64 - 1
+MASK = 2 ** 64 - 1
 P1, P2, P3 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9
 P4, P5 = 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
 
-
 def rotl(x, r):
-    x &= MASK64
-    return (x << r | x >> (64 - r)) & MASK64
-
+    x &= MASK
+    return (x << r | x >> (64 - r)) & MASK
 
 def xxh_round(acc, lane):
-    return rotl(acc + lane * P2, 31) * P1 & MASK64
-
-
-def merge(acc, v):
-    return ((acc ^ xxh_round(0, v)) * P1 + P4) & MASK64
-
+    return rotl(acc + lane * P2, 31) * P1 & MASK
 
 def xxh64(data, seed=0):
     """The 64-bit hash XXH64."""
-    at = 0
-    if len(data) >= 32:
+    at = len(data) // 32 * 32
+    h = seed + P5
+    if at > 0:
         v = [seed + P1 + P2, seed + P2, seed, seed - P1]
-        while len(data) - at >= 32:
-            v = [xxh_round(acc, lane) for acc, lane in zip(v, struct.unpack_from("<4Q", data, at))]
-            at += 32
-        h = rotl(v[0], 1) + rotl(v[1], 7) + rotl(v[2], 12) + rotl(v[3], 18) & MASK64
+        for block in struct.iter_unpack("<4Q", data[:at]):
+            v = [xxh_round(acc, lane) for acc, lane in zip(v, block)]
+        h = sum(rotl(acc, r) for acc, r in zip(v, (1, 7, 12, 18)))
         for acc in v:
-            h = merge(h, acc)
-    else:
-        h = seed + P5
-    h = (h + len(data)) & MASK64
+            h = (h ^ xxh_round(0, acc)) * P1 + P4  # merge
+    h = h + len(data) & MASK
     while len(data) - at >= 8:
-        h = rotl(h ^ xxh_round(0, struct.unpack_from("<Q", data, at)[0]), 27) * P1 + P4 & MASK64
+        h = rotl(h ^ xxh_round(0, struct.unpack_from("<Q", data, at)[0]), 27) * P1 + P4 & MASK
         at += 8
     if len(data) - at >= 4:
-        h = rotl(h ^ (struct.unpack_from("<I", data, at)[0] * P1 & MASK64), 23) * P2 + P3 & MASK64
+        h = rotl(h ^ struct.unpack_from("<I", data, at)[0] * P1, 23) * P2 + P3 & MASK
         at += 4
     for byte in data[at:]:
-        h = rotl(h ^ (byte * P5 & MASK64), 11) * P1 & MASK64
-    h = (h ^ (h >> 33)) * P2 & MASK64
-    h = (h ^ (h >> 29)) * P3 & MASK64
-    return h ^ (h >> 32)
-
+        h = rotl(h ^ byte * P5, 11) * P1 & MASK
+    h = (h ^ h >> 33) * P2 & MASK
+    h = (h ^ h >> 29) * P3 & MASK
+    return h ^ h >> 32
 
 def checksum(data, seed=0):
     return xxh64(data, seed) & 0xFFFFFFFF
 
-
 # 3. The stream
-
 SIGNATURE = bytes.fromhex("8B5456470D0A1A0A")
 ANCILLARY = {b"HEAD": 0, b"META": 1, b"MESH": 0, b"GOP ": 0, b"INDX": 1, b"TAIL": 0}
-LIMITS = (2 ** 24, 2 ** 25, 2 ** 16, 2 ** 28)  # §8.1, this decoder's own: vertices, faces, frames_per_gop, packet_bytes
-
+LIMITS = (2 ** 24, 2 ** 25, 2 ** 16, 2 ** 28)  # §8.1: vertices, faces, frames_per_gop, packet_bytes
 
 class Decoder:
     """Decodes one stream; the results are in its fields."""
-
     def __init__(self, data):
-        self.data = data
-        self.metadata, self.meshes, self.frames, self.gop_digests = {}, [], 0, []
+        self.data, self.metadata, self.meshes, self.frames, self.gop_digests = data, {}, [], 0, []
         self.sha_faces, self.sha_indices, self.sha_positions = hashlib.sha256(), hashlib.sha256(), hashlib.sha256()
-        self.index = []  # what INDX should hold: (frame count or 0, offset of the chunk)
+        self.index = []  # what INDX should hold: (frame_count or 0, offset of the chunk)
 
     def decode(self):
         """3.1 Signature, and 3.4 Order of chunks."""
-        start = self.data[:8]
-        text_mode = len(start) == 8 and start[:4] == SIGNATURE[:4]
-        hint = " (damaged by a transfer in text mode?)" if text_mode else ""
-        require(start == SIGNATURE, "3.1", "wrong signature" + hint, "not TVG")
+        hint = " (damaged by a transfer in text mode?)" if self.data[:4] == SIGNATURE[:4] else ""
+        require(self.data[:8] == SIGNATURE, "3.1", "wrong signature" + hint, "not TVG")
         at, seen, index_at = 8, [], None
         while at < len(self.data):
             offset = at
             kind, ancillary, payload, at = self.chunk(offset)
             require(seen or kind == b"HEAD", "3.4", "the first chunk is not HEAD")
+            require(b"TAIL" not in seen, "3.4", "bytes behind TAIL")
+            require(ancillary or kind in ANCILLARY, "3.2", f"unknown chunk {kind}", "unsupported version")
             if kind not in ANCILLARY:
-                require(ancillary, "3.2", f"unknown chunk {kind}", "unsupported version")
                 continue
             require(ancillary == ANCILLARY[kind], "3.4", f"wrong ancillary flag of chunk {kind}")
             require(kind in (b"MESH", b"GOP ") or kind not in seen, "3.4", f"a second chunk {kind}")
-            require(b"INDX" not in seen or kind == b"TAIL", "3.4", f"chunk {kind} behind INDX")
+            require(kind != b"META" or seen == [b"HEAD"], "3.4", "META behind the first MESH")
+            require(kind not in (b"GOP ", b"INDX") or self.meshes, "3.4", f"chunk {kind} before any mesh")
+            require((kind == b"TAIL") == (b"INDX" in seen), "3.4", "INDX and TAIL do not end the stream")
+            seen.append(kind)
             if kind == b"HEAD":
                 self.head(payload)
             elif kind == b"META":
-                require(seen == [b"HEAD"], "3.4", "META behind the first MESH")
                 self.meta(payload)
             elif kind == b"MESH":
                 self.mesh(payload)
                 self.index.append((0, offset))
             elif kind == b"GOP ":
-                require(self.meshes, "3.4", "GOP before any mesh")
                 self.index.append((self.gop(payload), offset))
             elif kind == b"INDX":
-                require(self.meshes, "3.4", "no mesh before INDX")
                 self.indx(payload)
                 index_at = offset
             elif kind == b"TAIL":
-                require(index_at is not None, "3.4", "TAIL without INDX")
                 self.tail(payload, offset - index_at)
-                require(at == len(self.data), "3.4", "bytes behind TAIL")
-            seen.append(kind)
         require(b"TAIL" in seen, "3.4", "no TAIL", "truncated")
 
     def chunk(self, at):
         """3.2 Chunks, and 3.3 Payload checksums. Returns type, ancillary bit, payload, offset of the next chunk."""
         require(at + 16 <= len(self.data), "3.2", "the stream ends in a chunk header", "truncated")
-        header = self.data[at:at + 16]
-        kind, (flags, length, header_checksum) = header[:4], struct.unpack("<3I", header[4:])
-        require(header_checksum == checksum(header[:12]), "3.2", "wrong header checksum")
+        kind, chunk_flags, length, header_checksum = struct.unpack_from("<4s3I", self.data, at)
+        require(header_checksum == checksum(self.data[at:at + 12]), "3.2", "wrong header checksum")
         require(all(0x20 <= c <= 0x7E for c in kind), "3.2", "wrong characters of a chunk type")
-        require(flags <= 1, "3.2", "reserved flags are set")
+        require(chunk_flags <= 1, "3.2", "reserved flags are set")
         require(length <= 2 ** 31 - 1, "3.2", "length of a chunk")
         end = at + 16 + length
         require(end + 4 <= len(self.data), "3.2", "the stream ends in a chunk", "truncated")
         payload = self.data[at + 16:end]
         if kind in ANCILLARY:
-            payload_checksum = struct.unpack_from("<I", self.data, end)[0]
+            payload_checksum = int.from_bytes(self.data[end:end + 4], "little")
             require(payload_checksum == checksum(payload), "3.3", f"wrong payload checksum of chunk {kind}")
-        return kind, flags & 1, payload, end + 4
+        return kind, chunk_flags, payload, end + 4
 
     # 4. Payloads
-
     def head(self, payload):
         """4.1 HEAD."""
         reader = Reader(payload, "4.1")
@@ -235,38 +189,32 @@ class Decoder:
         require(len(payload) <= 2 ** 20, "4.2", "size of the metadata")
         reader = Reader(payload, "4.2")
         count = reader.varint()
-        require(count <= reader.left() // 2, "4.2", "number of entries")
+        require(count <= (len(payload) - reader.at) // 2, "4.2", "number of entries")
         last = b""
         for _ in range(count):
-            key = reader.take(reader.varint())
-            value = reader.take(reader.varint())
+            key, value = reader.take(reader.varint()), reader.take(reader.varint())
             require(key > last, "4.2", "keys are empty or do not ascend")
             last = key
             try:
                 self.metadata[key.decode("utf-8")] = value.decode("utf-8")
             except UnicodeDecodeError:
-                raise Invalid("4.2", "not UTF-8") from None
+                require(False, "4.2", "not UTF-8")
         reader.end()
 
     def mesh(self, payload):
         """4.3 MESH."""
         require(len(payload) <= 64 + 16 * (self.vertices + self.faces), "4.3", "payload size", "limit-exceeded")
         reader = Reader(payload, "4.3")
-        vertex_count, face_count = reader.varint(), reader.varint()
-        require(1 <= vertex_count <= 2 ** 31 - 1, "4.3", "vertex_count")
-        require(face_count <= 2 ** 31 - 1, "4.3", "face_count")
-        require(vertex_count <= self.vertices, "4.1", "vertices of a mesh", "limit-exceeded")
-        require(face_count <= self.faces, "4.1", "faces of a mesh", "limit-exceeded")
-        order = reader.unsigned(1)
-        require(order <= 1, "4.3", "order")
-        connectivity = reader.take(reader.varint())
-        faces, self.gates = Connectivity(connectivity, vertex_count, face_count).decode()
-        if order == 1:
-            self.order = vertex_order(reader.rest(), self.gates)
-        else:
-            self.order = list(range(vertex_count))
+        V, F = reader.varint(), reader.varint()
+        require(1 <= V <= 2 ** 31 - 1, "4.3", "vertex_count")
+        require(F <= 2 ** 31 - 1, "4.3", "face_count")
+        require(V <= self.vertices and F <= self.faces, "4.1", "size of a mesh", "limit-exceeded")
+        has_order = reader.unsigned(1)
+        require(has_order <= 1, "4.3", "order")
+        faces, self.gates = Connectivity(reader.take(reader.varint()), V, F).decode()
+        self.order = vertex_order(reader.rest(), self.gates) if has_order else list(range(V))
         reader.end()
-        self.meshes.append((vertex_count, face_count))
+        self.meshes.append((V, F))
         for face in faces:
             self.sha_faces.update(struct.pack("<3I", *(self.order[corner] for corner in face)))
 
@@ -302,10 +250,8 @@ class Decoder:
         hashed = bytearray()
         for k in range(1, frame_count + 1):
             frames.frame(packet(header_checksum * 2 ** 32 + k)[0])
-            for index in frames.X:
-                hashed += struct.pack("<4I", *index, 0)
+            hashed += b"".join(struct.pack("<4I", *index, 0) for index in frames.X)
             self.output(frames, origin, step)
-
         # 7.6 The digest
         digest = packet(header_checksum * 2 ** 32 + frame_count + 1)[0]
         require(len(digest) == 8, "4.5", "size of the digest")
@@ -321,16 +267,15 @@ class Decoder:
             index = [x >> frames.shift[v] for x in frames.X[v]]
             indices[place] = struct.pack("<3i", *index)
             edge = step * 2.0 ** frames.shift[v]
-            positions[place] = b"".join(position(o, i, edge) for o, i in zip(origin, index))
+            positions[place] = struct.pack("<3f", *(position(o, i, edge) for o, i in zip(origin, index)))
         self.sha_indices.update(b"".join(indices))
         self.sha_positions.update(b"".join(positions))
         self.frames += 1
 
     def indx(self, payload):
         """4.6 INDX."""
-        reader = Reader(payload, "4.6")
+        reader, last = Reader(payload, "4.6"), 0
         require(reader.varint() == len(self.index), "4.6", "number of entries")
-        last = 0
         for count, offset in self.index:
             require(reader.varint() == count, "4.6", "number of frames")
             require(reader.varint() == offset - last, "4.6", "distance")
@@ -343,103 +288,91 @@ class Decoder:
         require(reader.unsigned(8) == distance, "4.7", "distance to INDX")
         reader.end()
 
-
 # 5. The mesh
-
 class Edge:
-    """A border edge."""
-
+    """A border edge; its field "from" is called start. Its own number is kept too."""
     def __init__(self, start, to, across, number):
-        self.start, self.to, self.across = start, to, across  # start: "from" in the specification
-        self.previous = self.next = number
-        self.open = True
+        self.start, self.to, self.across, self.number, self.open = start, to, across, number, True
+        self.previous = self.next = self
 
+def link(x, y):
+    x.next, y.previous = y, x
+
+def insert_before(edge, e):
+    link(edge.previous, e)
+    link(e, edge)
+
+def meets_previous(e):
+    return e.previous.to == e.start and e.previous.start != e.to
+
+def meets_next(e):
+    return e.next.start == e.to and e.next.to != e.start
 
 class Connectivity:
-    """5.1 Connectivity."""
-
+    """5.1 Connectivity. Where the specification has numbers of edges, there are the edges themselves here."""
     def __init__(self, data, V, F):
         require(V + F <= 128 * len(data) and F <= 2 ** 30, "5.1", "too many vertices or faces", "limit-exceeded")
         self.V, self.F, self.coder = V, F, RangeDecoder(data, "5.1")
         # 5.1.1 State
-        self.faces, self.gates, self.edges = [], [], []
-        self.degree, self.edge_at = [0] * V, [NONE] * V
+        self.faces, self.gates, self.edges, self.degree, self.edge_at = [], [], [], [0] * V, [None] * V
         # 5.1.2 Models
-        self.op_coarse = [Symbol(6) for _ in range(125)]
-        self.op_fine = [Symbol(6) for _ in range(320)]
-        self.near = Symbol(weights=[2000, 2000, 15000, 15000, 5000, 5000, 2500, 2500, 1500, 1500, 1000, 1000, 500, 500,
-                                    10535, 0])
+        self.op_coarse, self.op_fine = [Symbol(6) for _ in range(125)], [Symbol(6) for _ in range(320)]
+        self.near = Symbol(weights=(2000, 2000, 15000, 15000, 5000, 5000, 2500, 2500, 1500, 1500, 1000, 1000, 500, 500,
+                                    10535, 0))
         self.known = [Bit() for _ in range(3)]
 
-    # 5.1.1 State
+    def open(self, start, to, across):
+        edge = Edge(start, to, across, len(self.edges))
+        self.edges.append(edge)
+        self.edge_at[start] = edge
+        self.edge_at[to] = self.edge_at[to] or edge
+        return edge
 
-    def open_edge(self, start, to, across):
-        number = len(self.edges)
-        self.edges.append(Edge(start, to, across, number))
-        self.edge_at[start] = number
-        if self.edge_at[to] == NONE:
-            self.edge_at[to] = number
-        return number
-
-    def link(self, x, y):
-        self.edges[x].next = y
-        self.edges[y].previous = x
-
-    def insert_before(self, number, e):
-        self.link(self.edges[number].previous, e)
-        self.link(e, number)
-
-    def close(self, number):
-        edge, edges = self.edges[number], self.edges
-        previous, following = edge.previous, edge.next
+    def close(self, edge):
+        before, after = edge.previous, edge.next
         edge.open = False
-        self.link(previous, following)
-        if self.edge_at[edge.start] == number:
-            there = previous != number and edges[previous].to == edge.start
-            self.edge_at[edge.start] = previous if there else NONE
-        if self.edge_at[edge.to] == number:
-            there = following != number and edges[following].start == edge.to
-            self.edge_at[edge.to] = following if there else NONE
+        link(before, after)
+        if self.edge_at[edge.start] is edge:
+            self.edge_at[edge.start] = before if before is not edge and before.to == edge.start else None
+        if self.edge_at[edge.to] is edge:
+            self.edge_at[edge.to] = after if after is not edge and after.start == edge.to else None
 
     def splice(self, incoming, known):
-        v = self.edges[incoming].to
-        other = self.edges[known].previous if self.edges[known].start == v else known
-        x, y = self.edges[incoming].next, self.edges[other].next
-        self.link(incoming, y)
-        self.link(other, x)
+        other = known.previous if known.start == incoming.to else known
+        x, y = incoming.next, other.next
+        link(incoming, y)
+        link(other, x)
 
     def last_open(self):
         while self.edges and not self.edges[-1].open:
             self.edges.pop()
-        return len(self.edges) - 1 if self.edges else NONE
+        return self.edges[-1] if self.edges else None
 
     def add_vertex(self, gate):
         require(len(self.gates) < self.V, "5.1.1", "too many vertices")
         self.gates.append(gate)
 
-    def add_face(self, a, b, c):
-        self.faces.append((a, b, c))
-        for v in (a, b, c):
+    def add_face(self, *corners):
+        self.faces.append(corners)
+        for v in corners:
             self.degree[v] = min(self.degree[v] + 1, 8)
 
     def decode(self):
         """5.1.3 Main loop. Returns faces and gates."""
         while len(self.faces) < self.F:
             e = self.last_open()
-            if e == NONE:
+            if e is None:
                 self.root()
             else:
                 self.step(e)
-        while len(self.gates) < self.V:
-            self.gates.append((NONE, NONE, NONE))
+        self.gates += [(NONE, NONE, NONE)] * (self.V - len(self.gates))
         self.padding()
         self.coder.finish()
         return self.faces, self.gates
 
     def root(self):
         """5.1.4 Root triangle."""
-        n = p = NONE
-        c = [NONE] * 3
+        n, p, c = NONE, NONE, [NONE] * 3
         for i in range(3):
             if self.gates and self.coder.bit(self.known[i]):
                 c[i] = self.any_vertex()
@@ -451,14 +384,11 @@ class Connectivity:
             if i == 1 and c[1] != c[0]:
                 p = c[1]
         self.add_face(*c)
-        if len(set(c)) < 3:
-            return
-        e0 = self.open_edge(c[0], c[1], c[2])
-        e1 = self.open_edge(c[1], c[2], c[0])
-        e2 = self.open_edge(c[2], c[0], c[1])
-        self.link(e0, e1)
-        self.link(e1, e2)
-        self.link(e2, e0)
+        if len(set(c)) == 3:
+            e0, e1, e2 = self.open(c[0], c[1], c[2]), self.open(c[1], c[2], c[0]), self.open(c[2], c[0], c[1])
+            link(e0, e1)
+            link(e1, e2)
+            link(e2, e0)
 
     def any_vertex(self):
         value = self.coder.bits(0, (len(self.gates) - 1).bit_length())
@@ -467,91 +397,74 @@ class Connectivity:
 
     def step(self, e):
         """5.1.5 A step over a border edge."""
-        edge = self.edges[e]
-        a, b, o, prev, nxt = edge.start, edge.to, edge.across, edge.previous, edge.next
-        previous, following = self.edges[prev], self.edges[nxt]
-        meets_previous = previous.to == a and previous.start != b
-        meets_next = following.start == b and following.to != a
-        if meets_previous and meets_next and previous.start == following.to:
+        a, b, o, prev, nxt = e.start, e.to, e.across, e.previous, e.next
+        situation = meets_previous(e) + 2 * meets_next(e)
+        if situation == 3 and prev.start == nxt.to:
             situation = 4
-        else:
-            situation = meets_previous + 2 * meets_next
         A, B = self.degree[a], self.degree[b]
         coarse = (situation * 5 + clamp(A, 3, 7) - 3) * 5 + clamp(B, 3, 7) - 3
-        fine = (situation * 8 + A - 1) * 8 + B - 1
-        op = self.coder.symbol(self.op_coarse[coarse], self.op_fine[fine])
+        op = self.coder.symbol(self.op_coarse[coarse], self.op_fine[(situation * 8 + A - 1) * 8 + B - 1])
         require(op < 6, "5.1.2", "operation")
         new, to_previous, to_next, reference, boundary = op == 0, op in (1, 3), op in (2, 3), op == 4, op == 5
         if boundary:
             self.close(e)
             return
-        require(meets_previous or not to_previous, "5.1.5", "previous edge does not meet")
-        require(meets_next or not to_next, "5.1.5", "next edge does not meet")
+        require(meets_previous(e) or not to_previous, "5.1.5", "the previous edge does not meet")
+        require(meets_next(e) or not to_next, "5.1.5", "the next edge does not meet")
         if new:
             v = len(self.gates)
             self.add_vertex((a, b, o))
-        if reference:
+        elif reference:
             v = self.near_vertex(e)
-        if to_next:
-            v = following.to
-        if to_previous:
-            v = previous.start
-        require(op != 3 or v == following.to, "5.1.5", "close")
+        else:
+            v = prev.start if to_previous else nxt.to
+        require(v == nxt.to or not (to_previous and to_next), "5.1.5", "close")
         require(v not in (a, b), "5.1.5", "degenerate triangle")
         self.add_face(b, a, v)
-        known_edge = self.edge_at[v] if reference else NONE
+        known_edge = self.edge_at[v] if reference else None
         if not to_previous:
-            incoming = self.open_edge(a, v, b)
-            self.insert_before(e, incoming)
+            incoming = self.open(a, v, b)
+            insert_before(e, incoming)
         if not to_next:
-            self.insert_before(e, self.open_edge(v, b, a))
+            insert_before(e, self.open(v, b, a))
         self.close(e)
         if to_previous:
             self.close(prev)
         if to_next:
             self.close(nxt)
-        if known_edge != NONE:
+        if known_edge:
             self.splice(incoming, known_edge)
 
     def near_vertex(self, e):
-        x = y = e
-        candidate = []
+        x, y, candidate = e, e, []
         for _ in range(7):
-            x, y = self.edges[x].next, self.edges[y].previous
-            candidate += [self.edges[x].to, self.edges[y].start]
+            x, y = x.next, y.previous
+            candidate += [x.to, y.start]
         s = self.coder.symbol(self.near)
         require(s < 15, "5.1.2", "symbol of near")
         return candidate[s] if s < 14 else self.any_vertex()
 
     def padding(self):
         """5.1.6 Padding."""
-        if self.coder.raw(1) == 0:
-            return
-        left = (self.V + self.F + 15) // 16
-        while left > 0:
-            m = min(left, 15)
-            require(self.coder.raw(m) == 0, "5.1.6", "padding")
-            left -= m
-
+        if self.coder.raw(1):
+            require(self.coder.bits(0, (self.V + self.F + 15) // 16) == 0, "5.1.6", "padding")
 
 def vertex_order(data, gates):
     """5.2 Vertex order."""
-    V = len(gates)
     require(data and data[0] <= 2, "5.2", "mode")
+    unused = list(range(len(gates)))  # ascending: rank(x) is bisect_left, select(r) is unused[r]
     if data[0] == 0:
         require(len(data) == 1, "5.2", "bytes behind mode 0")
-        return list(range(V))
+        return unused
     coder = RangeDecoder(data[1:], "5.2")
-    unused = list(range(V))  # ascending: rank(x) is bisect_left, select(r) is unused[r]
     order = (near_order if data[0] == 1 else uniform_order)(coder, gates, unused)
     coder.finish()
     return order
 
-
 def near_order(coder, gates, unused):
     """5.2.1 Near."""
-    V = len(gates)
     choice, below, length = [Symbol(5) for _ in range(5)], [Bit() for _ in range(5)], [Symbol(16) for _ in range(5)]
+    order, last, V = [], 0, len(gates)
 
     def number(model):
         k = coder.symbol(model)
@@ -560,7 +473,6 @@ def near_order(coder, gates, unused):
         require(k <= 32, "5.2.1", "number")
         return k if k <= 1 else coder.bits(1, k - 1)
 
-    order, last = [], 0
     for i, (n, p, o) in enumerate(gates):
         r = [bisect_left(unused, order[w]) if w != NONE else 0 for w in (i - 1 if i > 0 else NONE, n, p, o)]
         r.append(bisect_left(unused, clamp(order[n] + order[p] - order[o], 0, V)) if o != NONE else 0)
@@ -572,24 +484,18 @@ def near_order(coder, gates, unused):
         order.append(unused.pop(r[last] - 1 - d if is_below else r[last] + d))
     return order
 
-
 def uniform_order(coder, gates, unused):
     """5.2.2 Uniform."""
-    order = []
-    for i in range(len(gates)):
-        bound = len(gates) - i
+    def uniform(bound):
         k = bound.bit_length() - 1
-        u = 2 ** (k + 1) - bound
-        value = coder.bits(0, k)
-        order.append(unused.pop(value if value < u else 2 * value + coder.raw(1) - u))
-    return order
+        u, value = 2 ** (k + 1) - bound, coder.bits(0, k)
+        return value if value < u else 2 * value + coder.raw(1) - u
 
+    return [unused.pop(uniform(len(unused))) for _ in gates]
 
 # 6. Entropy coding
-
 class RangeDecoder:
     """6.1 The range coder. user: the section whose stream this is, for messages."""
-
     def __init__(self, data, user):
         self.data, self.user, self.range, self.shifted = data, user, 2 ** 32 - 1, 0
         self.code = int.from_bytes(data[:4].ljust(4, b"\0"), "big")
@@ -598,10 +504,10 @@ class RangeDecoder:
         require(condition, "6.1", f"{what}, in the stream of section {self.user}")
 
     def next_bit(self):
-        at = 32 + self.shifted
+        byte, bit = divmod(32 + self.shifted, 8)
         self.shifted += 1
         self.check(self.shifted <= 8 * len(self.data), "more bits are used than there are")
-        return self.data[at >> 3] >> (7 - (at & 7)) & 1 if at >> 3 < len(self.data) else 0
+        return self.data[byte] >> (7 - bit) & 1 if byte < len(self.data) else 0
 
     def interval(self, low, frequency):
         unit = self.range >> 15
@@ -624,15 +530,14 @@ class RangeDecoder:
         while cumulative[s + 1] <= t:
             s += 1
         self.interval(cumulative[s], cumulative[s + 1] - cumulative[s])
-        a.adapt(s)
-        if b is not a:
-            b.adapt(s)
+        for model in {a, b}:
+            model.adapt(s)
         return s
 
     def bit(self, model):
         """An adaptive bit."""
         zero = model.zero()
-        value = int(self.code >= (self.range >> 15) * zero)
+        value = self.target() >= zero  # the same as code >= (range >> 15) * zero
         self.interval(*((zero, 2 ** 15 - zero) if value else (0, zero)))
         model.adapt(value)
         return value
@@ -653,19 +558,14 @@ class RangeDecoder:
     def finish(self):
         length = len(self.data)
         self.check(length == (self.shifted + 8) // 8, "wrong length")
-        unused = 8 * length - self.shifted - 1
-        self.check(self.data[-1] % 2 ** unused == 0, "the last bits are not zero")
+        self.check(self.data[-1] % 2 ** (8 * length - self.shifted - 1) == 0, "the last bits are not zero")
         self.check(self.code < 2 ** 31, "the last interval is not settled")
 
-
 # 6.2 Adaptive models
-
 class Bit:
     """An adaptive bit."""
-
     def __init__(self):
-        self.fast = self.slow = 0x8000
-        self.count = 0
+        self.fast, self.slow, self.count = 0x8000, 0x8000, 0
 
     def zero(self):
         m = (self.fast + self.slow) >> 2
@@ -673,26 +573,17 @@ class Bit:
 
     def adapt(self, bit):
         r = min(4 + (self.count >> 2), 7)
-        if bit == 0:
-            self.fast += (0xFFFF - self.fast) >> 4
-            self.slow += (0xFFFF - self.slow) >> r
-        else:
-            self.fast -= self.fast >> 4
-            self.slow -= self.slow >> r
+        self.fast += -(self.fast >> 4) if bit else (0xFFFF - self.fast) >> 4
+        self.slow += -(self.slow >> r) if bit else (0xFFFF - self.slow) >> r
         self.count = min(self.count + 1, 12)
 
-
 class Symbol:
-    """An adaptive symbol: of N equally likely ones, or with weights."""
-
+    """An adaptive symbol: of N equally likely ones, or with 16 weights."""
     S = 2 ** 15 - 64
 
     def __init__(self, N=16, weights=None):
         self.count = 0
-        if weights:
-            self.c = [self.S * sum(weights[:i]) // 65535 for i in range(16)]
-        else:
-            self.c = [self.S * min(i, N) // N for i in range(16)]
+        self.c = [self.S * (sum(weights[:i]) if weights else min(i, N)) // (65535 if weights else N) for i in range(16)]
 
     def adapt(self, s):
         rate = 2 + sum(self.count >= bound for bound in (2, 6, 16, 32))
@@ -700,46 +591,36 @@ class Symbol:
             self.c[i] += ((self.S if i > s else 0) - self.c[i]) >> rate
         self.count = min(self.count + 1, 32)
 
-
 # 7. Frames
-
-def position(origin, i, edge):
-    """7.1 The position of lattice index i in one axis, as the bytes of a binary32."""
-    exact = origin + (i + 0.5) * edge
-    try:
-        return struct.pack("<f", clamp(exact, -LARGEST, LARGEST))
-    except OverflowError:
-        return struct.pack("<f", math.copysign(LARGEST, exact))
-
-
 LARGEST = (2 - 2.0 ** -23) * 2.0 ** 127  # the largest finite binary32
 
+def position(origin, i, edge):
+    """7.1 The position of lattice index i in one axis; instead of an infinite binary32, the largest finite one."""
+    return clamp(origin + (i + 0.5) * edge, -LARGEST, LARGEST)
 
 class Level:
     """The models of one level of one set (7.3.1)."""
-
     def __init__(self):
         self.first, self.second = [Symbol(16) for _ in range(15)], [Symbol(16) for _ in range(15)]
         self.longer = [Bit() for _ in range(27)]
 
-
 THRESHOLDS = (2, 3, 6, 9, 12, 18, 24, 33, 45, 60, 81, 108, 144, 190, 252)
-
 
 def sgn2(x):
     return clamp(x, -2, 2) + 2
 
-
 def sgn1(x):
     return clamp(x, -1, 1) + 1
 
+def half(x):
+    """trunc(x / 2)."""
+    return x // 2 if x >= 0 else -(-x // 2)
 
 class Frames:
     """The frames of one GOP."""
-
     def __init__(self, gates, fine, fine_bits, coarse_bits, predictor):
         self.gates, self.fine, self.predictor = gates, fine, predictor
-        self.fine_bits, self.D, self.one_lattice = fine_bits, fine_bits - coarse_bits, fine_bits == coarse_bits
+        self.B2, self.D = fine_bits, fine_bits - coarse_bits
         self.shift = [0 if is_fine else self.D for is_fine in fine]
         self.X, self.before = None, None  # padded indices of this frame and of the one before
         self.R = [[0, 0, 0] for _ in gates]
@@ -751,94 +632,81 @@ class Frames:
         self.before, self.X = self.X, [[0, 0, 0] for _ in self.gates]
         for v, shift in enumerate(self.shift):
             for axis in range(3):
-                prediction, context = self.predict(v, axis)
-                residual = self.residual(coder, *context)
-                index = prediction + residual
-                require(0 <= index < 2 ** (self.fine_bits - shift), "7.5", "an index outside its lattice")
-                self.X[v][axis] = index << shift
-                self.R[v][axis] = residual << shift
+                prediction, model_set, activity, first, second = self.predict(v, axis)
+                level = sum(activity >= threshold for threshold in THRESHOLDS)
+                value = residual(coder, level, self.sets[model_set][level], first, second)
+                index = prediction + value
+                require(0 <= index < 2 ** (self.B2 - shift), "7.5", "an index outside its lattice")
+                self.X[v][axis], self.R[v][axis] = index << shift, value << shift
         coder.finish()
 
     def predict(self, v, axis):
-        """Prediction (7.2) and models (7.3.1) for a vertex in an axis."""
-        (n, p, o), shift, X, before, R_v = self.gates[v], self.shift[v], self.X, self.before, self.R[v][axis]
+        """Prediction, set, activity, first and second for a vertex in an axis."""
+        (n, p, o), shift, R_v = self.gates[v], self.shift[v], self.R[v][axis]
+        predictor = self.predictor if self.before else "space"
 
         def now(w):
-            return X[w][axis] >> shift
+            return self.X[w][axis] >> shift
+
+        def before(w):
+            return self.before[w][axis] >> shift
 
         def motion(w):
-            return now(w) - (before[w][axis] >> shift)
+            return now(w) - before(w)
 
         # 7.2 Predictors
-        predictor = self.predictor if before else "space"
-        last = before[v][axis] >> shift if before else None
         if o == NONE:
             if predictor == "space":
                 near = n if n != NONE else v - 1
-                prediction = now(near) if near >= 0 else 2 ** (self.fine_bits - 1) >> shift
-            elif predictor == "time" or n == NONE:
-                prediction = last
+                prediction = now(near) if near >= 0 else 2 ** (self.B2 - 1) >> shift
             else:
-                prediction = last + motion(n)
-            activity = 8 * abs(R_v) if before else 64 if n != NONE else 255
-            return prediction, self.models(0, activity >> shift, 7, 6 + sgn1(R_v))
+                prediction = before(v) + (motion(n) if predictor == "elp" and n != NONE else 0)
+            activity = 8 * abs(R_v) if self.before else 64 if n != NONE else 255
+            return prediction, 0, activity >> shift, 7, 6 + sgn1(R_v)
         if predictor == "space":
             prediction, lean = now(n) + now(p) - now(o), 0
         elif predictor == "time":
-            prediction, lean = last, -motion(n) - motion(p)
+            prediction, lean = before(v), -motion(n) - motion(p)
         else:
-            prediction = last + motion(n) + motion(p) - motion(o)
+            prediction = before(v) + motion(n) + motion(p) - motion(o)
             lean = motion(n) + motion(p) - 2 * motion(o)
 
         # 7.3.1 Which models
         R_n, R_p, R_o = (self.R[w][axis] for w in (n, p, o))
-        h = sum(self.fine[w] for w in (n, p, o))
-        if self.one_lattice or (self.fine[v] and h == 3):
+        fine_gate = [w for w in (n, p, o) if self.fine[w]]
+        h = len(fine_gate)
+        if self.D == 0 or (self.fine[v] and h == 3):
             model_set = 0
-        elif self.fine[v]:
-            model_set = 1 + h
         else:
-            model_set = 4 if h == 0 else 5
+            model_set = 1 + h if self.fine[v] else 4 if h == 0 else 5
         activity = (2 * (abs(R_n) + abs(R_p)) + abs(R_o) + 3 * abs(R_v)) >> shift
-        first = 3 * sgn2(lean) + sgn1(R_n + R_p)
-        second = 3 * sgn2(lean) + sgn1(R_v)
+        first, second = 3 * sgn2(lean) + sgn1(R_n + R_p), 3 * sgn2(lean) + sgn1(R_v)
         if model_set in (1, 2, 3) and predictor != "space":
             if h == 0:
                 pull = lean >> 1
             else:
-                mean = sum(motion(w) for w in (n, p, o) if self.fine[w]) >> (h - 1)
+                mean = sum(motion(w) for w in fine_gate) >> (h - 1)
                 pull = sum(motion(w) - mean for w in (n, p) if not self.fine[w])
-                if not self.fine[o]:
-                    pull -= motion(o) - mean
+                pull -= 0 if self.fine[o] else motion(o) - mean
             pull >>= max(0, self.D - 2)
             first = clamp(pull, -7, 7) + 7
             if model_set != 3:
                 second = 3 * sgn2(half(pull + (pull > 0))) + sgn1(half(R_v))
-        return prediction, self.models(model_set, activity, first, second)
+        return prediction, model_set, activity, first, second
 
-    def models(self, model_set, activity, first, second):
-        """The number of the level, longer, and the two models of a residual."""
-        level = sum(activity >= threshold for threshold in THRESHOLDS)
-        models = self.sets[model_set][level]
-        return level, models.longer, models.first[first], models.second[second]
-
-    def residual(self, coder, level, longer, first, second):
-        """7.3.2 The value."""
-        k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
-        s = coder.symbol(first, second)
-        high = s - 7 if s < 15 else escape(coder, longer)
-        return high if k == 0 else clamp(high * 2 ** k + coder.raw(k), -2 ** 27, 2 ** 27)
-
+def residual(coder, level, models, first, second):
+    """7.3.2 The value."""
+    k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
+    s = coder.symbol(models.first[first], models.second[second])
+    high = s - 7 if s < 15 else escape(coder, models.longer)
+    return high if k == 0 else clamp(high * 2 ** k + coder.raw(k), -2 ** 27, 2 ** 27)
 
 def escape(coder, longer):
-    """7.3.2 The value, where it is large."""
-    negative = coder.raw(1)
-    length = 0
+    negative, length = coder.raw(1), 0
     while length < 27 and coder.bit(longer[length]):
         length += 1
     size = min(coder.bits(1, length) + 7, 2 ** 27)
     return -size if negative else size
-
 
 def flags(data, gates, one_lattice):
     """7.4 Flags. Returns for each vertex whether it is fine."""
@@ -851,7 +719,6 @@ def flags(data, gates, one_lattice):
     coder.finish()
     return flag
 
-
 def main(arguments):
     """Decode the file named by the arguments and print what is in it."""
     names = [argument for argument in arguments if argument != "--digests"]
@@ -861,28 +728,18 @@ def main(arguments):
     try:
         with open(names[0], "rb") as file:
             decoder = Decoder(file.read())
-    except OSError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    try:
         decoder.decode()
-    except Invalid as error:
+    except (OSError, Invalid) as error:
         print(f"error: {error}", file=sys.stderr)
-        return 3
-    result = {
-        "frames": decoder.frames,
-        "vertices": [vertices for vertices, _ in decoder.meshes],
-        "faces": [faces for _, faces in decoder.meshes],
-        "metadata": decoder.metadata,
-        "faces_sha256": decoder.sha_faces.hexdigest(),
-        "indices_sha256": decoder.sha_indices.hexdigest(),
-        "positions_sha256": decoder.sha_positions.hexdigest(),
-    }
+        return 3 if isinstance(error, Invalid) else 2
+    result = {"frames": decoder.frames, "vertices": [V for V, _ in decoder.meshes],
+              "faces": [F for _, F in decoder.meshes], "metadata": decoder.metadata,
+              "faces_sha256": decoder.sha_faces.hexdigest(),
+              "indices_sha256": decoder.sha_indices.hexdigest(), "positions_sha256": decoder.sha_positions.hexdigest()}
     if "--digests" in arguments:
         result["gop_digests"] = [f"{digest:016x}" for digest in decoder.gop_digests]
     print(json.dumps(result, indent=2))
     return 0
-
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))

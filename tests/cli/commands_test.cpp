@@ -35,7 +35,7 @@ TEST_F(ToolTest, StreamsThroughPipes) {
   good("tvg encode hand.obj hand.pc2 -o - | tvg join - -o - | cmp - hand.tvg");
   good("cat hand.tvg | tvg info - && cat hand.tvg | tvg verify -");
   good("tvg decode hand.tvg -o - | cmp - back.pc2");
-  const Run once = good("cat hand.pc2 | tvg encode hand.obj - -o once.tvg");
+  const Outcome once = good("cat hand.pc2 | tvg encode hand.obj - -o once.tvg");
   EXPECT_THAT(once.err, HasSubstr("each GOP has a bounding box of its own"));
   good("tvg verify once.tvg");
 }
@@ -85,7 +85,7 @@ TEST_F(ToolTest, DamageStopsDecodingUnlessConcealed) {
   expect_failure("tvg decode hand.tvg -o back.pc2", 3, "hand.tvg: frame");
   EXPECT_FALSE(std::filesystem::exists(folder_.path("back.pc2")));
   EXPECT_FALSE(std::filesystem::exists(folder_.path("back.obj")));
-  const Run concealed = good("tvg decode hand.tvg -o back.pc2 --conceal");
+  const Outcome concealed = good("tvg decode hand.tvg -o back.pc2 --conceal");
   EXPECT_THAT(concealed.err, HasSubstr("lost"));
   EXPECT_EQ(folder_.read("back.pc2").size(), folder_.read("hand.pc2").size());
   good("tvg decode hand.tvg -o part.pc2 --frames 0-4");  // what is not damaged can be had
@@ -139,7 +139,7 @@ TEST_F(ToolTest, QuietPrintsNothing) {
   for (const std::string command :
        {"tvg encode hand.obj hand.pc2 -o hand.tvg --quiet", "tvg decode hand.tvg -o back.pc2 --quiet",
         "tvg verify hand.tvg --quiet", "tvg join hand.tvg hand.tvg -o two.tvg --quiet"}) {
-    const Run quiet = good(command);
+    const Outcome quiet = good(command);
     EXPECT_EQ(quiet.out + quiet.err, "") << command;
   }
 }

@@ -55,7 +55,7 @@ TEST_F(ToolTest, ForeignFilesAreNamedAndRefused) {
         continue;  // a mesh can be compared
       std::string line = command;
       for (std::size_t at; (at = line.find('%')) != std::string::npos;) line.replace(at, 1, file);
-      const Run result = run(line);
+      const Outcome result = run(line);
       EXPECT_EQ(result.status, 3) << line;
       EXPECT_THAT(result.out + result.err, HasSubstr(words)) << line;
       EXPECT_THAT(result.err, HasSubstr(file)) << line;
@@ -72,14 +72,14 @@ TEST_F(ToolTest, EveryFileIsNamedOnce) {
   folder_.write("nan.pc2", bytes);
   folder_.write("cut.pc2", bytes.substr(0, bytes.size() - 100));
   for (const std::string file : {"nan.pc2", "cut.pc2"}) {
-    const Run result = run("tvg encode hand.obj " + file + " -o no.tvg");
+    const Outcome result = run("tvg encode hand.obj " + file + " -o no.tvg");
     EXPECT_EQ(result.status, 3);
     EXPECT_THAT(result.err, HasSubstr(file));
     EXPECT_EQ(result.err.find(file), result.err.rfind(file)) << result.err;
     EXPECT_THAT(result.err, HasSubstr("frame")) << result.err;
     EXPECT_THAT(result.err, Not(HasSubstr("[invalid-input"))) << result.err;
   }
-  const Run piped = run("head -c 9999 hand.pc2 | tvg encode hand.obj - -o no.tvg");
+  const Outcome piped = run("head -c 9999 hand.pc2 | tvg encode hand.obj - -o no.tvg");
   EXPECT_EQ(piped.status, 3);
   EXPECT_THAT(piped.err, HasSubstr("tvg: standard input ends at byte 9999 inside frame"));
 }
@@ -130,13 +130,13 @@ TEST_F(ToolTest, AFolderWithoutPermissionIsAnIoError) {
 
 TEST_F(ToolTest, AClosedPipeIsAnIoErrorAndNoCrash) {
   good("tvg encode hand.obj hand.pc2 -o hand.tvg");
-  const Run result = run("tvg decode hand.tvg -o - | true; echo ${PIPESTATUS[0]}");
+  const Outcome result = run("tvg decode hand.tvg -o - | true; echo ${PIPESTATUS[0]}");
   EXPECT_THAT(result.out, ::testing::AnyOf("0\n", "2\n"));  // 0 where all fits the pipe before it is closed
   EXPECT_EQ(run("exec 3> >(true); sleep 0.2; tvg decode hand.tvg -o - >&3").status, 2);
 }
 
 TEST_F(ToolTest, AnInterruptRemovesTheTemporaryFile) {
-  const Run result =
+  const Outcome result =
       run("(cat hand.pc2; exec sleep 3) | head -c 40000 >part; "
           "mkfifo feed; (cat part; exec sleep 20) >feed & feeder=$!; "
           "tvg encode hand.obj - -o out.tvg --gop 1 --threads 1 <feed & tool=$!; "

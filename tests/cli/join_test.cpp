@@ -79,7 +79,7 @@ TEST_F(JoinTest, OtherConnectivityAndOptionsJoinToo) {
 TEST_F(JoinTest, MetadataOfTheFirstAreKeptAndDifferencesNoted) {
   good("tvg encode hand.obj hand.pc2 -o one.tvg --fps 30 --name one");
   good("tvg encode hand.obj hand.pc2 -o two.tvg --fps 25 --units cm --name one");
-  const Run joined = good("tvg join one.tvg two.tvg -o both.tvg");
+  const Outcome joined = good("tvg join one.tvg two.tvg -o both.tvg");
   EXPECT_THAT(joined.err, HasSubstr("two.tvg: its fps is \"25\""));
   EXPECT_THAT(joined.err, Not(HasSubstr("its name")));
   const auto metadata = json("tvg info both.tvg --json")["metadata"];
@@ -92,7 +92,7 @@ TEST_F(JoinTest, DamagedInputsAreNamedWithThePlaceAndLeaveNothing) {
   const std::vector<std::string> before = folder_.names();
   for (std::size_t offset = 0; offset < whole.size(); offset += 1 + whole.size() / 60) {
     flip_byte("b.tvg", offset);
-    const Run result = run("tvg join a.tvg b.tvg -o no.tvg");
+    const Outcome result = run("tvg join a.tvg b.tvg -o no.tvg");
     EXPECT_EQ(result.status, 3) << "byte " << offset;
     EXPECT_THAT(result.err, HasSubstr("tvg: b.tvg: ")) << "byte " << offset;
     EXPECT_THAT(result.err, HasSubstr("byte ")) << "byte " << offset;

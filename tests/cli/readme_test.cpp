@@ -1,5 +1,6 @@
 #include "tool_test_fixture.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -19,7 +20,7 @@ TEST_F(ToolTest, TheReadmesDecoderExampleIsTheOneThatIsCompiledAndRuns) {
   EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos);
 
   good("tvg encode hand.obj hand.pc2 -o hand.tvg");
-  const Run frames = good(std::string(TVG_README_EXAMPLE) + " <hand.tvg");
+  const Outcome frames = good(std::string(TVG_README_EXAMPLE) + " <hand.tvg");
   EXPECT_EQ(std::count(frames.out.begin(), frames.out.end(), '\n'), static_cast<std::ptrdiff_t>(kFrames));
   EXPECT_NEAR(std::stod(frames.out), hand_.frames[0][0], 0.01);
 }

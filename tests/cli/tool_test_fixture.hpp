@@ -14,7 +14,7 @@
 namespace tvg::cli::testing {
 
 /// How a shell command ended and what it printed.
-struct Run {
+struct Outcome {
   int status = 0;  ///< as $? gives it
   std::string out;
   std::string err;
@@ -31,7 +31,7 @@ class ToolTest : public ::testing::Test {
     corpus::write_pc2(folder_.path("hand.pc2"), hand_);
   }
 
-  Run run(const std::string& command) const {
+  Outcome run(const std::string& command) const {
     const std::string tool_folder = std::filesystem::path(TVG_TOOL).parent_path().string();
     const std::string line = "cd '" + folder_.path("") + "' && PATH='" + tool_folder + "':$PATH && { " +
                              command + "\n} >'" + printed_.path("out") + "' 2>'" + printed_.path("err") +
@@ -42,22 +42,22 @@ class ToolTest : public ::testing::Test {
   }
 
   /// Runs what must succeed.
-  Run good(const std::string& command) const {
-    Run result = run(command);
+  Outcome good(const std::string& command) const {
+    Outcome result = run(command);
     EXPECT_EQ(result.status, 0) << command << "\n" << result.err;
     return result;
   }
 
   /// Runs what must end with `status` and say `words`.
   void expect_failure(const std::string& command, int status, const std::string& words) const {
-    const Run result = run(command);
+    const Outcome result = run(command);
     EXPECT_EQ(result.status, status) << command << "\n" << result.err;
     EXPECT_THAT(result.err, ::testing::HasSubstr(words)) << command;
     EXPECT_THAT(result.err, ::testing::Not(::testing::HasSubstr("terminate called"))) << command;
   }
 
   nlohmann::json json(const std::string& command) const {
-    const Run result = run(command);
+    const Outcome result = run(command);
     nlohmann::json parsed = nlohmann::json::parse(result.out, nullptr, false);
     EXPECT_FALSE(parsed.is_discarded()) << command << "\n" << result.out << result.err;
     return parsed;
@@ -67,7 +67,8 @@ class ToolTest : public ::testing::Test {
   std::vector<std::pair<std::size_t, std::size_t>> chunks(const std::string& stream,
                                                           const std::string& type) const {
     std::vector<std::pair<std::size_t, std::size_t>> found;
-    for (const nlohmann::json& chunk : json("tvg info --json " + stream)["chunks"]) {
+    const nlohmann::json info = json("tvg info --json " + stream);
+    for (const nlohmann::json& chunk : info["chunks"]) {
       if (chunk["type"] == type) found.emplace_back(chunk["offset"], chunk["bytes"]);
     }
     return found;

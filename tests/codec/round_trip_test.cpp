@@ -141,7 +141,9 @@ TEST(Codec, ImportanceFollowsShareThresholdAndAlpha) {
 }
 
 TEST(Codec, AllVerticesInOnePointComeBack) {
-  Sequence sequence{tetrahedron(), {FramePositions(12, -3.5f), FramePositions(12, -3.5f)}, {}};
+  Sequence sequence;
+  sequence.mesh = tetrahedron();
+  sequence.frames.assign(2, FramePositions(12, -3.5f));
   for (const int coarse : {6, 11}) {
     EncodeOptions options;
     options.coarse_bits = coarse;
@@ -157,7 +159,10 @@ TEST(Codec, ExtremesOfFloatComeBack) {
   const FramePositions huge = {-kMost, -kMost, -kMost, kMost, kMost, kMost, 0, 1, kMost};
   const FramePositions tiny = {0, 0, 0, kLeast, 0, 0, 0, 3 * kLeast, 0};
   for (const FramePositions& frame : {huge, tiny}) {
-    const Sequence sequence{{3, {{0, 1, 2}}}, {frame, frame}, {}};
+    Sequence sequence;
+    sequence.mesh.vertex_count = 3;
+    sequence.mesh.faces.push_back({0, 1, 2});
+    sequence.frames.assign(2, frame);
     for (const int bits : {1, 11, 24}) {
       EncodeOptions options;
       options.fine_bits = options.coarse_bits = bits;

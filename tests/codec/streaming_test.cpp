@@ -236,8 +236,12 @@ Stream concatenated(const std::vector<Stream>& streams) {
   EXPECT_TRUE(writer.write(write_chunk(kHeadChunk, false, write_head(limits))).ok());
   for (const Stream& stream : streams) {
     for (const auto& [type, bytes] : chunks_of(stream)) {
-      if (type == kMeshChunk) EXPECT_TRUE(writer.write_mesh_chunk(bytes).ok());
-      if (type == kGopChunk) EXPECT_TRUE(writer.write_gop_chunk(bytes, 6).ok());
+      if (type == kMeshChunk) {
+        EXPECT_TRUE(writer.write_mesh_chunk(bytes).ok());
+      }
+      if (type == kGopChunk) {
+        EXPECT_TRUE(writer.write_gop_chunk(bytes, 6).ok());
+      }
     }
   }
   EXPECT_TRUE(writer.write_end().ok());

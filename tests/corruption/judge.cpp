@@ -1,12 +1,14 @@
 #include "judge.hpp"
 
-#include "conformance/streams.hpp"
 #include "container/checksum.hpp"
 #include "memory_meter.hpp"
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include <tvg/decoder.hpp>
 
@@ -49,7 +51,10 @@ class Eye {
 
 Original make_original(std::string_view conformance_stream) {
   Original original;
-  original.stream = conformance::make_stream(conformance_stream);
+  std::ifstream file(
+      std::filesystem::path(TVG_CONFORMANCE_FOLDER) / (std::string(conformance_stream) + ".tvg"),
+      std::ios::binary);
+  original.stream.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   Decoder decoder;
   decoder.push(original.stream);
   decoder.finish();
