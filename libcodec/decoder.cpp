@@ -13,6 +13,11 @@ namespace tvg {
 
 namespace {
 
+bool known_type(const ChunkType& type) {
+  return type == kHeadChunk || type == kMetadataChunk || type == kMeshChunk || type == kGopChunk ||
+         type == kIndexChunk || type == kTailChunk;
+}
+
 /// The message is short enough for std::string to hold it without an allocation, which would fail too.
 Error out_of_memory() {
   return {ErrorCode::kOutOfMemory, "out of memory", {}, {}, ""};
@@ -141,9 +146,10 @@ class Decoder::State {
   std::uint64_t expected_label = 0;      ///< first_frame of the next GOP, if nothing was cut out
   std::optional<Error> unreported_loss;  ///< damage of unknown extent: the next GOP or the index tells
   bool lost_anything = false;
-  bool searched = false;           ///< chunks may have been passed over since the last GOP
-  std::uint64_t read_in_vain = 0;  ///< bytes of structures that did not fit their checksums
-  std::vector<IndexEntry> seen;    ///< what the index should hold
+  bool searched = false;                      ///< chunks may have been passed over since the last GOP
+  std::uint64_t read_in_vain = 0;             ///< bytes of structures that did not fit their checksums
+  std::optional<std::uint64_t> index_offset;  ///< of the index chunk, once it was met
+  std::vector<IndexEntry> seen;               ///< what the index should hold
 };
 
 std::optional<Decoder::Event> Decoder::State::step() {
@@ -279,19 +285,23 @@ std::optional<Decoder::Event> Decoder::State::read_chunk_start() {
   if (!has_head && header->type != kHeadChunk) {
     return fail({ErrorCode::kMalformed, "the stream does not begin with its head", offset, {}, "§3.4"});
   }
+  const bool ancillary = header->type == kMetadataChunk || header->type == kIndexChunk;
+  if (known_type(header->type) && header->ancillary != ancillary) {
+    return lose_rest(
+        {ErrorCode::kMalformed, "a chunk's ancillary flag does not fit its type", {}, {}, "§3.4"});
+  }
   chunk = *header;
   chunk_offset = offset;
   payload_hash = Hasher();
   payload_left = chunk.length;
   packet_index = 0;
   consume(kChunkHeaderSize);
-  constexpr std::uint32_t kMaxSmallChunk = 1u << 20;
   const std::uint64_t mesh_bytes = 64 + 16 * (std::uint64_t{head.limits.vertices} + head.limits.faces);
   if (chunk.type == kGopChunk) {
     phase = Phase::kPacket;
   } else if (chunk.type == kHeadChunk || chunk.type == kTailChunk || chunk.type == kMetadataChunk) {
     phase = Phase::kPayload;
-    if (chunk.length > kMaxSmallChunk)
+    if (chunk.length > kMaxSmallPayload)
       return lose_rest({ErrorCode::kMalformed, "a chunk is too long", {}, {}, "§3.2"});
   } else if (chunk.type == kMeshChunk) {
     phase = Phase::kPayload;
@@ -299,7 +309,8 @@ std::optional<Decoder::Event> Decoder::State::read_chunk_start() {
     if (chunk.length > mesh_bytes)
       return lose_rest({ErrorCode::kMalformed, "the mesh is too long", {}, {}, "§4.3"});
   } else if (chunk.type == kIndexChunk) {
-    phase = chunk.length <= 64 + 20 * seen.size() + 16 * kMaxSmallChunk ? Phase::kPayload : Phase::kSkip;
+    index_offset = chunk_offset;
+    phase = chunk.length <= 64 + 20 * seen.size() + 16 * kMaxSmallPayload ? Phase::kPayload : Phase::kSkip;
   } else if (chunk.ancillary) {
     phase = Phase::kSkip;
   } else {
@@ -344,6 +355,10 @@ std::optional<Decoder::Event> Decoder::State::read_payload() {
     const Result<std::uint64_t> distance = read_tail(payload);
     if (!distance) return lose_rest(distance.error(), size);
     phase = Phase::kTail;
+    if (!lost_anything && (!index_offset || *distance != chunk_offset - *index_offset)) {
+      event = report_loss(
+          0, {ErrorCode::kMalformed, "the tail does not lead to the index", chunk_offset, {}, "§4.7"});
+    }
   }
   if (phase != Phase::kFailed && phase != Phase::kResync) consume(size);
   return event;
@@ -440,7 +455,8 @@ std::optional<Decoder::Event> Decoder::State::read_packet() {
   const Bytes packet = reader.bytes(size);
   const std::uint32_t expected = reader.u32();
   if (!reader.ok()) return need_bytes();
-  const std::uint64_t seed = packet_index == 0 ? 0 : packet_seed(header_checksum, packet_index);
+  const std::uint64_t seed =
+      packet_index == 0 ? 0 : packet_seed(header_checksum, mesh.payload_checksum, packet_index);
   const std::size_t total = prefix + packet.size() + kChunkChecksumSize;
   if (expected != checksum(packet, seed)) return lose_unproven(damaged(), total);
 
@@ -531,13 +547,9 @@ std::optional<Decoder::Event> Decoder::State::end_gop() {
 
 // format-spec §8.3
 std::optional<Decoder::Event> Decoder::State::resynchronize() {
-  const auto known = [](const ChunkType& type) {
-    return type == kGopChunk || type == kMeshChunk || type == kIndexChunk || type == kTailChunk ||
-           type == kMetadataChunk;
-  };
   while (available().size() >= kChunkHeaderSize) {
     const std::optional<ChunkHeader> header = read_chunk_header(available());
-    if (header && known(header->type)) {
+    if (header && header->type != kHeadChunk && known_type(header->type)) {
       phase = Phase::kChunkHeader;
       return std::nullopt;
     }

@@ -21,6 +21,8 @@ Error invalid_argument(std::string message) {
   return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
 }
 
+constexpr std::uint64_t kMaxFirstFrame = std::uint64_t{1} << 61;  // leaves room for the frames that follow
+
 Status check_options(const EncodeOptions& options) {
   if (options.fine_bits < kMinBits || options.fine_bits > kMaxBits || options.coarse_bits < kMinBits ||
       options.coarse_bits > options.fine_bits) {
@@ -36,6 +38,9 @@ Status check_options(const EncodeOptions& options) {
   if (!(options.importance.alpha >= 0 && options.importance.alpha <= 1)) {
     return invalid_argument("alpha must lie between 0 and 1");
   }
+  if (options.predictor > Predictor::kElp) return invalid_argument("there is no such predictor");
+  if (options.first_frame > kMaxFirstFrame)
+    return invalid_argument("the number of the first frame is too large");
   if (options.gop_frames == 0 || options.gop_frames > (1u << 16)) {
     return invalid_argument("a GOP must have 1 to 65536 frames");
   }
@@ -178,6 +183,9 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
   EncodedMesh mesh = encode_mesh(source.mesh(), options.keep_vertex_order);
   Metadata metadata = options.metadata;
   metadata.merge(source.metadata());
+  if (metadata.count("") > 0) return invalid_argument("a key of the metadata is empty");
+  if (write_metadata(metadata).size() > kMaxSmallPayload)
+    return invalid_argument("the metadata is above 1 MiB");
   StreamWriter writer(sink);
   if (Status status = write_start(writer, limits, metadata, mesh.payload); !status.ok())
     return status.error();

@@ -77,11 +77,11 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
         std::span<const std::int32_t>(frames.indices().front().data(), 4 * frames.indices().size()));
     const std::vector<std::uint8_t> packet = coder.finish();
     largest_packet = std::max(largest_packet, packet.size());
-    write_packet(gop, packet_seed(header_checksum, ++packet_index), packet);
+    write_packet(gop, packet_seed(header_checksum, mesh.payload_checksum, ++packet_index), packet);
   }
   ByteWriter trailer;
   trailer.u64(digest.value());
-  write_packet(gop, packet_seed(header_checksum, ++packet_index), trailer.data());
+  write_packet(gop, packet_seed(header_checksum, mesh.payload_checksum, ++packet_index), trailer.data());
 
   if (largest_packet > limits.packet_bytes || gop.data().size() > kMaxChunkLength) {
     return Error{ErrorCode::kLimitExceeded,

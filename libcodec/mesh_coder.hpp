@@ -18,6 +18,7 @@ struct CodedMesh {
   std::vector<Gate> gates;           ///< [traversal index]
   std::vector<std::uint32_t> order;  ///< [traversal index] = vertex of `mesh`
   MeshInfo info;
+  std::uint32_t payload_checksum = 0;  ///< of the mesh chunk: part of what its GOPs' packets are checked by
 };
 
 /// Decodes the payload of a mesh chunk (format-spec §4.3).

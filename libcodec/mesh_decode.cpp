@@ -1,4 +1,5 @@
 #include "connectivity/vertex_order.hpp"
+#include "container/checksum.hpp"
 #include "container/layout.hpp"
 #include "mesh_coder.hpp"
 
@@ -19,6 +20,7 @@ Result<CodedMesh> decode_mesh(Bytes payload, const StreamLimits& limits) {
   if (!connectivity) return connectivity.error();
 
   CodedMesh coded;
+  coded.payload_checksum = checksum(payload);
   coded.info = {layout->connectivity.size(), layout->order.size(), layout->keeps_order};
   coded.gates = std::move(connectivity->gates);
   coded.mesh = {layout->vertex_count, std::move(connectivity->faces)};

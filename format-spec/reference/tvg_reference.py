@@ -203,6 +203,7 @@ class Decoder:
 
     def mesh(self, payload):
         """4.3 MESH."""
+        self.mesh_checksum = checksum(payload)
         require(len(payload) <= 64 + 16 * (self.vertices + self.faces), "4.3", "payload size", "limit-exceeded")
         reader = Reader(payload, "4.3")
         V, F = reader.varint(), reader.varint()
@@ -249,11 +250,11 @@ class Decoder:
         frames = Frames(self.gates, fine, fine_bits, coarse_bits, ("space", "time", "elp")[predictor])
         hashed = bytearray()
         for k in range(1, frame_count + 1):
-            frames.frame(packet(header_checksum * 2 ** 32 + k)[0])
+            frames.frame(packet((header_checksum ^ self.mesh_checksum) * 2 ** 32 + k)[0])
             hashed += b"".join(struct.pack("<4I", *index, 0) for index in frames.X)
             self.output(frames, origin, step)
         # 7.6 The digest
-        digest = packet(header_checksum * 2 ** 32 + frame_count + 1)[0]
+        digest = packet((header_checksum ^ self.mesh_checksum) * 2 ** 32 + frame_count + 1)[0]
         require(len(digest) == 8, "4.5", "size of the digest")
         self.gop_digests.append(xxh64(bytes(hashed)))
         require(int.from_bytes(digest, "little") == self.gop_digests[-1], "7.6", "wrong digest", "digest-mismatch")

@@ -31,6 +31,8 @@ inline constexpr ChunkType kTailChunk = {'T', 'A', 'I', 'L'};
 inline constexpr std::size_t kChunkHeaderSize = 16;
 inline constexpr std::size_t kChunkChecksumSize = 4;
 inline constexpr std::uint32_t kMaxChunkLength = 0x7FFFFFFF;
+/// Payloads of head, metadata and tail are no longer than this (§4.2).
+inline constexpr std::uint32_t kMaxSmallPayload = 1u << 20;
 
 struct ChunkHeader {
   ChunkType type;
@@ -78,9 +80,11 @@ Result<GopHeader> read_gop_header(Bytes packet);
 
 /// §4.5: a packet is its size, its bytes and a checksum that also covers its place in the GOP.
 void write_packet(ByteWriter& gop, std::uint64_t seed, Bytes packet);
-/// The checksum's seed for packet `index` (0 is the header) of a GOP whose header packet has this checksum.
-constexpr std::uint64_t packet_seed(std::uint32_t header_checksum, std::uint32_t index) {
-  return (std::uint64_t{header_checksum} << 32) | index;
+/// The checksum's seed for packet `index` (1 for the first frame) of a GOP, from the checksums of its header
+/// packet and of the mesh chunk it belongs to: a packet fits no other place, GOP or mesh.
+constexpr std::uint64_t packet_seed(std::uint32_t header_checksum, std::uint32_t mesh_checksum,
+                                    std::uint32_t index) {
+  return (std::uint64_t{header_checksum ^ mesh_checksum} << 32) | index;
 }
 
 std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries);

@@ -103,7 +103,9 @@ class RangeDecoder {
 
   bool code_bit(std::uint32_t zero_frequency, bool /*ignored*/ = false) {
     const std::uint32_t unit = range_ >> kProbabilityBits;
-    const bool bit = static_cast<std::uint32_t>(window_ >> 32) >= unit * zero_frequency;
+    const auto code = static_cast<std::uint32_t>(window_ >> 32);
+    impossible_ |= code >= (unit << kProbabilityBits);
+    const bool bit = code >= unit * zero_frequency;
     if (bit) {
       consume(unit, zero_frequency, (1u << kProbabilityBits) - zero_frequency);
     } else {
@@ -129,7 +131,7 @@ class RangeDecoder {
 
   /// True once more bits were used than the bytes hold, or no encoder can have written them: what is decoded
   /// from here on is meaningless.
-  bool overrun() const { return overrun_ || (targets_ >> kProbabilityBits) != 0; }
+  bool overrun() const { return overrun_ || impossible_; }
 
   /// After the last symbol: true when the stream ends exactly here, in the one form the encoder writes
   /// (§6.1).
@@ -146,7 +148,7 @@ class RangeDecoder {
   /// Where in the probability scale the code value lies.
   std::uint32_t target(std::uint32_t unit) {
     const std::uint32_t quotient = static_cast<std::uint32_t>(window_ >> 32) / unit;
-    targets_ |= quotient;
+    impossible_ |= quotient >= (1u << kProbabilityBits);
     return quotient < (1u << kProbabilityBits) ? quotient : (1u << kProbabilityBits) - 1;
   }
 
@@ -167,7 +169,7 @@ class RangeDecoder {
   std::uint64_t window_ = 0;  ///< upper 32 bits: code value minus low; below them the bits that follow
   int available_ = 0;         ///< bits of the window that are filled
   std::uint32_t range_ = 0xFFFFFFFFu;
-  std::uint32_t targets_ = 0;  ///< all targets or-ed: a bit above the scale marks an impossible code value
+  bool impossible_ = false;  ///< the code value lay beyond every interval: no encoder writes that
   bool overrun_ = false;
 };
 

@@ -35,8 +35,8 @@ Result<Lattice> lattice_over(const BoundingBox& box, int fine_bits, int coarse_b
     if (bits > kMaxBits) {
       return Error{ErrorCode::kInvalidArgument,
                    "the step is too small for this mesh: its box would need " +
-                       std::to_string(static_cast<long>(bits)) + " bits, " + std::to_string(kMaxBits) +
-                       " are possible",
+                       (bits > 999 ? std::string("more than 999") : std::to_string(static_cast<int>(bits))) +
+                       " bits, " + std::to_string(kMaxBits) + " are possible",
                    {},
                    {},
                    ""};

@@ -119,6 +119,7 @@ Status copy_meshes_and_gops(Bytes stream, StreamWriter& writer) {
 /// The meshes and GOPs of several streams under one head, with `between` in front of each stream's.
 Stream join(const std::vector<Stream>& streams, Bytes between = {}) {
   Stream joined;
+  joined.reserve(4096);
   StreamWriter writer([&joined](Bytes bytes) {
     joined.insert(joined.end(), bytes.begin(), bytes.end());
     return Status();

@@ -235,14 +235,15 @@ TEST(GopHeaderPacket, EveryFieldOutOfRangeIsRefused) {
 
 TEST(Packet, ChecksumKnowsThePlaceAndTheGop) {
   const Buffer bytes = {1, 2, 3};
-  EXPECT_NE(checksum(bytes, packet_seed(7, 1)), checksum(bytes, packet_seed(7, 2)));
-  EXPECT_NE(checksum(bytes, packet_seed(7, 1)), checksum(bytes, packet_seed(8, 1)));
+  EXPECT_NE(checksum(bytes, packet_seed(7, 3, 1)), checksum(bytes, packet_seed(7, 3, 2)));
+  EXPECT_NE(checksum(bytes, packet_seed(7, 3, 1)), checksum(bytes, packet_seed(8, 3, 1)));
+  EXPECT_NE(checksum(bytes, packet_seed(7, 3, 1)), checksum(bytes, packet_seed(7, 4, 1)));
   ByteWriter gop;
-  write_packet(gop, packet_seed(7, 1), bytes);
+  write_packet(gop, packet_seed(7, 3, 1), bytes);
   ByteReader reader(gop.data());
   EXPECT_EQ(reader.varint(), 3u);
   EXPECT_EQ(reader.bytes(3).front(), 1);
-  EXPECT_EQ(reader.u32(), checksum(bytes, packet_seed(7, 1)));
+  EXPECT_EQ(reader.u32(), checksum(bytes, packet_seed(7, 3, 1)));
   EXPECT_TRUE(reader.finished());
 }
 

@@ -71,6 +71,7 @@ void repair_lengths(std::span<std::uint8_t> stream) {
 }
 
 void repair_checksums(std::span<std::uint8_t> stream) {
+  std::uint32_t mesh_checksum = 0;
   for (const ChunkExtent& chunk : find_chunks(stream)) {
     const auto bytes = stream.subspan(chunk.whole.begin, chunk.whole.size);
     put_u32(bytes.subspan(kHeaderChecksumOffset), checksum(bytes.first(kHeaderChecksumOffset)));
@@ -79,7 +80,8 @@ void repair_checksums(std::span<std::uint8_t> stream) {
       const auto packet = stream.subspan(chunk.packets[k].begin, chunk.packets[k].size);
       ByteReader reader(packet);
       const Bytes content = reader.bytes(reader.varint());
-      const std::uint64_t seed = k == 0 ? 0 : packet_seed(header_checksum, static_cast<std::uint32_t>(k));
+      const std::uint64_t seed =
+          k == 0 ? 0 : packet_seed(header_checksum, mesh_checksum, static_cast<std::uint32_t>(k));
       const std::uint32_t sum = checksum(content, seed);
       if (k == 0) header_checksum = sum;
       put_u32(packet.last(kChunkChecksumSize), sum);
@@ -87,6 +89,8 @@ void repair_checksums(std::span<std::uint8_t> stream) {
     const auto payload =
         bytes.subspan(kChunkHeaderSize, bytes.size() - kChunkHeaderSize - kChunkChecksumSize);
     put_u32(bytes.last(kChunkChecksumSize), checksum(payload));
+    if (read_chunk_header(bytes) && read_chunk_header(bytes)->type == kMeshChunk)
+      mesh_checksum = checksum(payload);
   }
 }
 

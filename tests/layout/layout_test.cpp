@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <iterator>
 #include <regex>
 #include <set>
@@ -40,7 +39,8 @@ std::set<fs::path> decoder_files() {
     left.pop_back();
     if (!reached.insert(file).second) continue;
     const std::string text = read(file);
-    for (const std::string& name : matches(text, "#include \"([^\"]+)\"")) left.push_back(kRoot / "libcodec" / name);
+    for (const std::string& name : matches(text, "#include \"([^\"]+)\""))
+      left.push_back(kRoot / "libcodec" / name);
     for (const std::string& name : matches(text, "#include <(tvg/[^>]+)>")) {
       left.push_back(kRoot / "libcodec/include" / name);
     }
@@ -51,7 +51,8 @@ std::set<fs::path> decoder_files() {
 TEST(Layout, DecoderReachesNoEncoderHeader) {
   const std::set<fs::path> files = decoder_files();
   ASSERT_GT(files.size(), 15u);
-  const std::regex encoder_only("_encode\\.|encoder\\.|/measure/|/metrics/|/simplify/|bounding_box|stream_writer");
+  const std::regex encoder_only(
+      "_encode\\.|encoder\\.|/measure/|/metrics/|/simplify/|bounding_box|stream_writer");
   for (const fs::path& file : files) {
     const std::string name = fs::relative(file, kRoot).generic_string();
     EXPECT_FALSE(std::regex_search(name, encoder_only)) << name;
@@ -63,13 +64,15 @@ TEST(Layout, DecoderIncludesNoLibraryButXxhash) {
     for (const std::string& header : matches(read(file), "#include <([^>]+)>")) {
       const bool standard = header.find('/') == std::string::npos && header.find('.') == std::string::npos;
       const bool own = header.rfind("tvg/", 0) == 0;
-      EXPECT_TRUE(standard || own || header == "xxhash.h" || header == "emmintrin.h") << header << " in " << file;
+      EXPECT_TRUE(standard || own || header == "xxhash.h" || header == "emmintrin.h")
+          << header << " in " << file;
     }
   }
 }
 
 TEST(Layout, EverySectionThatCodeNamesStandsInTheSpecification) {
-  const std::set<std::string> headings = matches(read(kRoot / "format-spec/tvg.md"), "\n#+ ([0-9]+(?:\\.[0-9]+)*)");
+  const std::set<std::string> headings =
+      matches(read(kRoot / "format-spec/tvg.md"), "\n#+ ([0-9]+(?:\\.[0-9]+)*)");
   ASSERT_GT(headings.size(), 30u);
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "libcodec")) {
     if (!entry.is_regular_file()) continue;
@@ -89,7 +92,8 @@ TEST(Layout, EverySectionOfTheSpecificationIsNamedInCode) {
   const std::set<std::string> headings =
       matches(read(kRoot / "format-spec/tvg.md"), "\n### ([0-9]+\\.[0-9]+)");
   for (const std::string& section : headings) {
-    if (without_code.count(section) == 0) EXPECT_TRUE(named.count(section)) << "§" << section << " has no code";
+    if (without_code.count(section) == 0)
+      EXPECT_TRUE(named.count(section)) << "§" << section << " has no code";
   }
 }
 

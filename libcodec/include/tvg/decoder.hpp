@@ -24,8 +24,8 @@ struct DecoderLimits {
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
 };
 
-/// A run of frames that could not be decoded, or, with kDigestMismatch, frames that were given out but are not
-/// what was encoded.
+/// A run of frames that could not be decoded, or, with kDigestMismatch, frames that were given out but are
+/// not what was encoded.
 struct Damage {
   std::uint64_t first_frame = 0;  ///< position in the stream of the first frame lost
   std::uint64_t frame_count = 0;  ///< frames lost; 0 when nobody can know how many
@@ -152,8 +152,8 @@ struct ByteRange {
   std::uint64_t size = 0;
 };
 
-/// Where the index chunk of a stream of `stream_size` bytes lies, from its last kTailBytes bytes. kMalformed when they
-/// are no tail: the stream is cut, or still being written.
+/// Where the index chunk of a stream of `stream_size` bytes lies, from its last kTailBytes bytes. kMalformed
+/// when they are no tail: the stream is cut, or still being written.
 Result<ByteRange> locate_index(std::span<const std::uint8_t> tail, std::uint64_t stream_size);
 
 /// The entries of an index chunk, from all of its bytes.
