@@ -68,7 +68,7 @@ Status check_mesh(const Mesh& mesh) {
 
 /// Reads the next frame and refuses what no lattice can hold. False at the end.
 Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint64_t number) {
-  const Result<bool> read = source.read_frame(frame);
+  Result<bool> read = source.read_frame(frame);
   if (!read || !*read) return read;
   const auto bad = std::find_if_not(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); });
   if (bad == frame.end()) return true;

@@ -71,7 +71,7 @@ Status GopDecoder::decode_frame(Bytes packet) {
 
 Status GopDecoder::decode_frame(Bytes packet, std::array<double, 3>& bits) {
   MeteredRangeDecoder coder(packet);
-  const Status status = decode_residuals(coder);
+  Status status = decode_residuals(coder);
   bits = coder.bits();
   return status;
 }

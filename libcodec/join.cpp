@@ -90,8 +90,9 @@ class Joiner {
       for (const auto& [key, value] : reader.metadata()) {
         const std::string& kept = merged.emplace(key, value).first->second;
         if (kept == value) continue;
-        report_.notes.push_back(reader.name() + ": its " + key + " is \"" + value + "\"; \"" + kept +
-                                "\" of an earlier input is kept");
+        std::string& note = report_.notes.emplace_back(reader.name());
+        note.append(": its ").append(key).append(" is \"").append(value);
+        note.append("\"; \"").append(kept).append("\" of an earlier input is kept");
       }
     }
     return merged;

@@ -45,7 +45,7 @@ Status JoinInputReader::read(std::uint64_t size, std::vector<std::uint8_t>& byte
 // format-spec §3.1
 Status JoinInputReader::read_signature() {
   std::vector<std::uint8_t> bytes;
-  const Status status = read(kSignature.size(), bytes);
+  Status status = read(kSignature.size(), bytes);
   if (!status.ok() && status.error().code != ErrorCode::kTruncated) return status;
   if (bytes.empty()) return fail(ErrorCode::kTruncated, "the stream is empty", "§3.1");
   if (!std::equal(bytes.begin(), bytes.end(), kSignature.begin())) {
