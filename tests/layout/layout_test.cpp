@@ -92,8 +92,8 @@ TEST(Layout, EverySectionOfTheSpecificationIsNamedInCode) {
   const std::set<std::string> headings =
       matches(read(kRoot / "format-spec/tvg.md"), "\n### ([0-9]+\\.[0-9]+)");
   for (const std::string& section : headings) {
-    if (without_code.count(section) == 0)
-      EXPECT_TRUE(named.count(section)) << "§" << section << " has no code";
+    const bool covered = named.count(section) > 0 || without_code.count(section) > 0;
+    EXPECT_TRUE(covered) << "§" << section << " has no code";
   }
 }
 
