@@ -2,7 +2,7 @@
 # WERROR=ON makes warnings errors; FUZZ_SECONDS is how long each fuzz target runs; LINT lists folders for clang-tidy.
 WERROR ?= OFF
 FUZZ_SECONDS ?= 60
-LINT ?= libcodec encoder decoder cli
+LINT ?= libcodec encoder decoder player server cli
 
 SOURCES = $(wildcard $(shell git ls-files --cached --others --exclude-standard "*.cpp" "*.hpp"))
 CONFIGURE = cmake -DTVG_WARNINGS_AS_ERRORS=$(WERROR) --preset
@@ -23,6 +23,7 @@ demo: build
 	@scripts/demo.sh build/release
 
 test: build
+	@scripts/install_packages.sh test
 	@scripts/run_tests.sh build/release
 
 bench:
@@ -45,7 +46,7 @@ lint:
 	@scripts/run_tidy.sh build/release $(LINT)
 
 sanitize:
-	@scripts/install_packages.sh build
+	@scripts/install_packages.sh build test
 	@$(CONFIGURE) asan-ubsan >/dev/null
 	$(call BUILD,build/asan-ubsan)
 	@scripts/run_tests.sh build/asan-ubsan

@@ -43,6 +43,11 @@ int main(int argc, char** argv) {
   add_verify_command(tool);
   add_compare_command(tool);
   add_join_command(tool);
+#ifdef TVG_HAS_PLAYER
+  add_play_command(tool);
+  add_render_command(tool);
+  add_serve_command(tool);
+#endif
 
   try {
     tool.parse(argc, argv);

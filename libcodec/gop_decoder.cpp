@@ -29,6 +29,7 @@ Status GopDecoder::begin(Bytes header_packet, const CodedMesh& mesh, const Strea
   lattice_ = {header->origin, header->step, header->fine_bits, header->coarse_bits};
   const auto vertex_count = static_cast<std::uint32_t>(mesh.gates.size());
   info_ = {header->first_frame,
+           header->first_frame,
            header->frame_count,
            static_cast<Predictor>(header->predictor),
            header->fine_bits,

@@ -1,10 +1,12 @@
 #!/bin/bash
-# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, bench, check) are installed.
+# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, test, bench, check) are installed.
 # Does nothing when all are there; as root it installs the missing ones; otherwise it lists them and fails.
 set -euo pipefail
 
 build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev)
+  nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev libglfw3-dev libimgui-dev libepoxy-dev libegl-dev
+  libgl1-mesa-dri libpng-dev libcurl4-openssl-dev libcpp-httplib-dev fonts-dejavu-core)
+test=(ffmpeg nginx-light xvfb)
 bench=(libbenchmark-dev libdraco-dev libmeshoptimizer-dev libzstd-dev)
 check=(clang clang-format clang-tidy libclang-rt-14-dev)
 
@@ -12,9 +14,10 @@ wanted=()
 for group in "$@"; do
   case $group in
     build) wanted+=("${build[@]}") ;;
+    test) wanted+=("${test[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     check) wanted+=("${check[@]}") ;;
-    *) echo "install_packages.sh: no group '$group' (build, bench, check)" >&2; exit 1 ;;
+    *) echo "install_packages.sh: no group '$group' (build, test, bench, check)" >&2; exit 1 ;;
   esac
 done
 

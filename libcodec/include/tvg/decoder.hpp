@@ -35,6 +35,7 @@ struct Damage {
 /// The importance and resolution of the GOP being decoded.
 struct GopInfo {
   std::uint64_t first_frame = 0;  ///< position in the stream
+  std::uint64_t source_frame = 0;  ///< number of its first frame in the sequence that was encoded
   std::uint32_t frame_count = 0;
   Predictor predictor = Predictor::kElp;
   int fine_bits = 0;    ///< B2
@@ -106,6 +107,16 @@ class Decoder {
   /// next frame has the number `frame`, both as the index tells. What was pushed and not used is dropped;
   /// head and mesh stay.
   void jump(std::uint64_t offset, std::uint64_t frame);
+  /// Tells where meshes and GOPs lie (parse_index()), so that seek() can go anywhere at once.
+  void set_index(std::vector<IndexEntry> entries);
+  /// Goes to `frame`: the next kFrame is this one or, where it is lost, the first good one after it. Returns
+  /// the offset in the stream at which the bytes pushed from now on begin. Without an index a frame beyond
+  /// those met so far is reached by reading on; GOPs in between are passed over, not decoded.
+  /// kInvalidArgument where the index says that there is no such frame, or before kHead.
+  Result<std::uint64_t> seek(std::uint64_t frame);
+  /// The number of bytes that come next in the input and are of no use on the way to a frame; they count as
+  /// pushed, so that the next push() begins behind them. A caller that reads from a pipe need not ask.
+  std::uint64_t skip();
   /// Whether frame_bits() is measured; it takes time.
   void measure_bits(bool on);
   /// The next event. After kEnd and kError it is the same forever.

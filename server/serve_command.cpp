@@ -1,0 +1,7 @@
+#include "cli/commands.hpp"
+
+namespace tvg::cli {
+
+void add_serve_command(CLI::App&) {}
+
+}  // namespace tvg::cli
