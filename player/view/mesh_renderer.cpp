@@ -1,0 +1,221 @@
+#include "player/view/mesh_renderer.hpp"
+
+#include "player/view/shaders.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr GLuint kPositionAttribute = 0;
+constexpr GLuint kNormalAttribute = 1;
+constexpr GLuint kValueAttribute = 2;
+
+/// Replaces a buffer's content. The driver may still draw the old one: it gets new memory, so that nobody
+/// waits.
+void stream(const GlBuffer& buffer, std::span<const float> values) {
+  const auto bytes = static_cast<GLsizeiptr>(values.size_bytes());
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+  glBufferData(GL_ARRAY_BUFFER, bytes, nullptr, GL_STREAM_DRAW);
+  glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, values.data());
+}
+
+void set_attribute(GLuint attribute, bool present) {
+  if (present) {
+    glEnableVertexAttribArray(attribute);
+  } else {
+    glDisableVertexAttribArray(attribute);
+    glVertexAttrib3f(attribute, 0, 0, 0);
+  }
+}
+
+void set_colour(GLint place, const Colour& colour) {
+  glUniform3f(place, colour.red, colour.green, colour.blue);
+}
+
+/// 1, 2 or 5 times a power of ten, near `length`.
+double round_length(double length) {
+  const double power = std::pow(10, std::floor(std::log10(length)));
+  const double digits = length / power;
+  return power * (digits < 1.5 ? 1 : digits < 3.5 ? 2 : digits < 7.5 ? 5 : 10);
+}
+
+}  // namespace
+
+MeshRenderer::MeshRenderer()
+    : mesh_array_(make_vertex_array()),
+      empty_array_(make_vertex_array()),
+      positions_(make_buffer()),
+      normals_(make_buffer()),
+      values_(make_buffer()),
+      faces_(make_buffer()),
+      colours_(make_texture()),
+      background_(make_program(background_shader())),
+      grid_(make_program(grid_shader())) {
+  glBindVertexArray(mesh_array_.get());
+  glBindBuffer(GL_ARRAY_BUFFER, positions_.get());
+  glVertexAttribPointer(kPositionAttribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glEnableVertexAttribArray(kPositionAttribute);
+  glBindBuffer(GL_ARRAY_BUFFER, normals_.get());
+  glVertexAttribPointer(kNormalAttribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ARRAY_BUFFER, values_.get());
+  glVertexAttribPointer(kValueAttribute, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, faces_.get());
+  glBindVertexArray(0);
+}
+
+void MeshRenderer::set_mesh(const Mesh& mesh) {
+  vertex_count_ = mesh.vertex_count;
+  face_count_ = mesh.faces.size();
+  has_frame_ = false;
+  glBindVertexArray(mesh_array_.get());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(face_count_ * sizeof(Face)),
+               mesh.faces.data(), GL_STATIC_DRAW);
+  glBindVertexArray(0);
+}
+
+void MeshRenderer::set_scene(const Bounds& bounds, UpAxis up) {
+  scene_ = bounds;
+  up_ = up;
+}
+
+void MeshRenderer::set_frame(std::span<const float> positions, std::span<const float> normals,
+                             std::span<const float> values, ColourMap map) {
+  const std::size_t coordinates = 3 * std::size_t{vertex_count_};
+  has_frame_ = coordinates > 0 && positions.size() >= coordinates;
+  if (!has_frame_) return;
+  has_normals_ = normals.size() >= coordinates;
+  has_values_ = values.size() >= vertex_count_;
+  glBindVertexArray(mesh_array_.get());
+  stream(positions_, positions.first(coordinates));
+  if (has_normals_) stream(normals_, normals.first(coordinates));
+  if (has_values_) stream(values_, values.first(vertex_count_));
+  set_attribute(kNormalAttribute, has_normals_);
+  set_attribute(kValueAttribute, has_values_);
+  glBindVertexArray(0);
+  if (has_values_) use_colour_map(map);
+}
+
+void MeshRenderer::use_colour_map(ColourMap map) {
+  if (colours_shown_ == static_cast<int>(map)) return;
+  colours_shown_ = static_cast<int>(map);
+  const auto samples = colour_map_samples(map);
+  glBindTexture(GL_TEXTURE_2D, colours_.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kColourMapSamples, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               samples.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+const MeshRenderer::MeshProgram& MeshRenderer::mesh_program(const Style& style) {
+  const bool points = face_count_ == 0;
+  const MeshShaderFeatures features{points || style.shading == Shading::kFlat || !has_normals_,
+                                    style.wireframe && !points, has_values_, points};
+  MeshProgram& program = programs_[(features.flat ? 1U : 0U) | (features.wireframe ? 2U : 0U) |
+                                   (features.values ? 4U : 0U) | (features.points ? 8U : 0U)];
+  if (!program.program) {
+    program.program = make_program(mesh_shader(features));
+    const GLuint name = program.program.get();
+    program.view = glGetUniformLocation(name, "view");
+    program.projection = glGetUniformLocation(name, "projection");
+    program.up = glGetUniformLocation(name, "up");
+    program.surface = glGetUniformLocation(name, "surface");
+    program.half_viewport = glGetUniformLocation(name, "half_viewport");
+    program.point_size = glGetUniformLocation(name, "point_size");
+  }
+  return program;
+}
+
+void MeshRenderer::draw(const OrbitCamera& camera, const Style& style, const Viewport& viewport) {
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  glEnable(GL_SCISSOR_TEST);
+  glDisable(GL_BLEND);
+  glDisable(GL_CULL_FACE);
+  glDepthMask(GL_TRUE);
+  glClearDepth(1);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  draw_background(style);
+  const CameraMatrices matrices = camera.matrices(viewport.aspect());
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  if (has_frame_) draw_mesh(matrices, style, viewport);
+  if (style.grid) draw_grid(matrices, style);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_SCISSOR_TEST);
+  glBindVertexArray(0);
+  glUseProgram(0);
+}
+
+void MeshRenderer::draw_background(const Style& style) {
+  glDisable(GL_DEPTH_TEST);
+  glUseProgram(background_.get());
+  set_colour(glGetUniformLocation(background_.get(), "top"), style.background_top);
+  set_colour(glGetUniformLocation(background_.get(), "bottom"), style.background_bottom);
+  glBindVertexArray(empty_array_.get());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport) {
+  const MeshProgram& program = mesh_program(style);
+  glUseProgram(program.program.get());
+  glUniformMatrix4fv(program.view, 1, GL_FALSE, matrices.view.data());
+  glUniformMatrix4fv(program.projection, 1, GL_FALSE, matrices.projection.data());
+  const std::size_t up_column = up_ == UpAxis::kY ? 4 : 8;
+  glUniform3fv(program.up, 1, matrices.view.data() + up_column);
+  set_colour(program.surface, style.surface);
+  glUniform2f(program.half_viewport, static_cast<float>(viewport.width) / 2,
+              static_cast<float>(viewport.height) / 2);
+  glUniform1f(program.point_size, std::max(2.0F, static_cast<float>(viewport.height) / 200));
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, has_values_ ? colours_.get() : 0);
+  glBindVertexArray(mesh_array_.get());
+  if (face_count_ == 0) {
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
+    glDisable(GL_PROGRAM_POINT_SIZE);
+  } else {
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * face_count_), GL_UNSIGNED_INT, nullptr);
+  }
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style&) {
+  const GLuint program = grid_.get();
+  const auto place = [program](const char* name) { return glGetUniformLocation(program, name); };
+  const bool y_up = up_ == UpAxis::kY;
+  const std::size_t up = y_up ? 1 : 2;
+  const std::size_t across = y_up ? 2 : 1;
+  const double radius = scene_.radius();
+  const double cell = round_length(radius / 6);
+  std::array<double, 3> center = scene_.center();
+  // A hair below what stands on it, so that flat feet do not flicker.
+  center[up] = scene_.low()[up] - 0.002 * radius;
+  const auto phase = [&](std::size_t axis) { return static_cast<float>(std::remainder(center[axis] / cell, 10.0)); };
+  glUseProgram(program);
+  glUniformMatrix4fv(place("view"), 1, GL_FALSE, matrices.view.data());
+  glUniformMatrix4fv(place("projection"), 1, GL_FALSE, matrices.projection.data());
+  glUniform3f(place("center"), static_cast<float>(center[0]), static_cast<float>(center[1]),
+              static_cast<float>(center[2]));
+  glUniform3f(place("along"), 1, 0, 0);
+  glUniform3f(place("across"), 0, y_up ? 0.0F : 1.0F, y_up ? 1.0F : 0.0F);
+  glUniform1f(place("reach"), static_cast<float>(4 * radius));
+  glUniform1f(place("cell"), static_cast<float>(cell));
+  glUniform2f(place("phase"), phase(0), phase(across));
+  glUniform3fv(place("ground_normal"), 1, matrices.view.data() + 4 * up);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  glBindVertexArray(empty_array_.get());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,83 @@
+#pragma once
+#include "player/view/bounds.hpp"
+#include "player/view/camera.hpp"
+#include "player/view/colour_map.hpp"
+#include "player/view/gl_objects.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include <tvg/mesh.hpp>
+
+namespace tvg::cli {
+
+enum class Shading { kSmooth, kFlat };
+
+/// How a mesh is drawn.
+struct Style {
+  Shading shading = Shading::kSmooth;
+  bool wireframe = false;
+  bool grid = false;
+  Colour surface{0.80F, 0.69F, 0.60F};            ///< where no values colour it
+  Colour background_top{0.93F, 0.94F, 0.955F};    ///< at the picture's upper edge
+  Colour background_bottom{0.74F, 0.77F, 0.81F};  ///< at its lower edge
+};
+
+/// Draws one mesh whose vertices move. Needs an OpenGL 3.3 core context that is current in every call, the
+/// destructor's included; it draws into whatever framebuffer is bound. The context's viewport and scissor
+/// rectangle are changed; depth test, blending, scissor test, vertex array and program are off when draw()
+/// returns. Errors of the driver are ToolErrors (kOther).
+class MeshRenderer {
+ public:
+  MeshRenderer();
+
+  /// The mesh of the frames that follow; nothing is drawn until set_frame().
+  void set_mesh(const Mesh& mesh);
+
+  /// What the ground grid lies under and how wide it is: the box of all that will be shown.
+  void set_scene(const Bounds& bounds, UpAxis up);
+
+  /// The frame to draw. `positions` and `normals`: [vertex][xyz]; a normal of length 0 takes that of its
+  /// face. `normals` may be empty, which draws flat. `values`: [vertex], 0 to 1, the colour of each vertex by
+  /// `map`, or empty for the style's colour. All are copied to the driver at once; no memory is allocated
+  /// here.
+  void set_frame(std::span<const float> positions, std::span<const float> normals,
+                 std::span<const float> values = {}, ColourMap map = ColourMap::kViridis);
+
+  /// Draws background, mesh and grid; what was in the viewport before is gone.
+  void draw(const OrbitCamera& camera, const Style& style, const Viewport& viewport);
+
+ private:
+  struct MeshProgram {
+    GlProgram program;
+    GLint view = -1;
+    GLint projection = -1;
+    GLint up = -1;
+    GLint surface = -1;
+    GLint half_viewport = -1;
+    GLint point_size = -1;
+  };
+
+  const MeshProgram& mesh_program(const Style& style);
+  void draw_background(const Style& style);
+  void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
+  void draw_grid(const CameraMatrices& matrices, const Style& style);
+  void use_colour_map(ColourMap map);
+
+  GlVertexArray mesh_array_, empty_array_;
+  GlBuffer positions_, normals_, values_, faces_;
+  GlTexture colours_;
+  GlProgram background_, grid_;
+  std::array<MeshProgram, 16> programs_;  // by what they do, made when first used
+  std::uint32_t vertex_count_ = 0;
+  std::size_t face_count_ = 0;
+  bool has_frame_ = false;
+  bool has_normals_ = false;
+  bool has_values_ = false;
+  int colours_shown_ = -1;  // the map in colours_
+  Bounds scene_;
+  UpAxis up_ = UpAxis::kY;
+};
+
+}  // namespace tvg::cli

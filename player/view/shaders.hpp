@@ -1,0 +1,18 @@
+#pragma once
+#include "player/view/gl_objects.hpp"
+
+namespace tvg::cli {
+
+/// What a program for the mesh does.
+struct MeshShaderFeatures {
+  bool flat = false;       ///< one normal per face
+  bool wireframe = false;  ///< edges over the surface
+  bool values = false;     ///< colours by value
+  bool points = false;     ///< vertices without faces
+};
+
+ShaderText mesh_shader(const MeshShaderFeatures& features);
+ShaderText background_shader();
+ShaderText grid_shader();
+
+}  // namespace tvg::cli
