@@ -22,6 +22,9 @@ class AtomicFile {
   const std::string& path() const { return path_; }
   /// Whether overwrite() and move_tail() can be called: false for standard output, pipes and devices.
   bool seekable() const { return !temporary_.empty(); }
+  /// Where the bytes are until finish(), for another program that writes them in place of write(); empty
+  /// where seekable() is false.
+  const std::string& temporary_path() const { return temporary_; }
   /// Bytes written so far.
   std::uint64_t size() const { return flushed_ + buffer_.size(); }
 

@@ -9,7 +9,6 @@
 #include "quantization/flag_coder.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace tvg {
 
@@ -19,8 +18,7 @@ namespace {
 std::vector<std::uint8_t> choose_flags(const GopInput& input, const CodedMesh& mesh,
                                        const Importance& importance) {
   if (!input.lattice.hybrid()) return {};
-  const std::array<WeightedCriterion, 1> terms = {{{&criteria().front(), 1.0}}};
-  const std::vector<double> costs = cost(terms, {mesh.mesh, input.frames, importance.alpha});
+  const std::vector<double> costs = cost(default_terms(), {mesh.mesh, input.frames, importance.alpha});
   const std::vector<std::uint8_t> by_vertex = importance.threshold
                                                   ? flag_above(costs, *importance.threshold)
                                                   : flag_highest_share(costs, importance.share);

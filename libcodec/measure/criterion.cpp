@@ -12,10 +12,16 @@ constexpr std::array<Criterion, 1> kCriteria = {{
     {"curv", curvature_criterion},
 }};
 
+constexpr std::array<WeightedCriterion, 1> kDefaultTerms = {{{&kCriteria[0], 1.0}}};
+
 }  // namespace
 
 std::span<const Criterion> criteria() {
   return kCriteria;
+}
+
+std::span<const WeightedCriterion> default_terms() {
+  return kDefaultTerms;
 }
 
 std::vector<double> cost(std::span<const WeightedCriterion> terms, const CriterionInput& input) {

@@ -29,6 +29,9 @@ struct WeightedCriterion {
   double weight;  ///< may be negative
 };
 
+/// The terms that choose important vertices unless the caller says otherwise.
+std::span<const WeightedCriterion> default_terms();
+
 /// Eq. 2: c_i = sum of w_k f_k(i), [vertex].
 std::vector<double> cost(std::span<const WeightedCriterion> terms, const CriterionInput& input);
 

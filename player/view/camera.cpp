@@ -19,7 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFieldOfView = 30 * std::numbers::pi / 180;  // vertical; little distortion, as portraits have
+constexpr double kFieldOfView =
+    30 * std::numbers::pi / 180;  // vertical; little distortion, as portraits have
 constexpr double kMargin = 1.06;
 constexpr double kMostZoom = 500;
 
@@ -171,8 +172,7 @@ CameraMatrices OrbitCamera::matrices(double aspect) const {
   view.block<1, 3>(0, 0) = at.right.cast<float>();
   view.block<1, 3>(1, 0) = at.up.cast<float>();
   view.block<1, 3>(2, 0) = at.backward.cast<float>();
-  view.block<3, 1>(0, 3) =
-      -Vector3d(at.right.dot(eye), at.up.dot(eye), at.backward.dot(eye)).cast<float>();
+  view.block<3, 1>(0, 3) = -Vector3d(at.right.dot(eye), at.up.dot(eye), at.backward.dot(eye)).cast<float>();
 
   const double to_center = (eye - vector(center_)).norm();
   const double far = to_center + 8 * radius_;  // the grid reaches beyond the box

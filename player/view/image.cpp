@@ -75,9 +75,8 @@ Image read_png(const std::string& path) {
     throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: no PNG: {}", path, png.message));
   }
   if (png.width > kMostPixels || png.height > kMostPixels) {
-    throw ToolError(ExitStatus::kInvalidInput,
-                    fmt::format("{}: {}x{} pixels; at most {} a side are read", path, png.width, png.height,
-                                kMostPixels));
+    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: {}x{} pixels; at most {} a side are read",
+                                                           path, png.width, png.height, kMostPixels));
   }
   png.format = PNG_FORMAT_RGBA;
   Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};

@@ -133,28 +133,29 @@ const MeshRenderer::MeshProgram& MeshRenderer::mesh_program(const Style& style) 
 }
 
 void MeshRenderer::draw(const OrbitCamera& camera, const Style& style, const Viewport& viewport) {
-  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  draw_background(style, viewport);
   glEnable(GL_SCISSOR_TEST);
-  glDisable(GL_BLEND);
-  glDisable(GL_CULL_FACE);
   glDepthMask(GL_TRUE);
   glClearDepth(1);
   glClear(GL_DEPTH_BUFFER_BIT);
-  draw_background(style);
+  glDisable(GL_SCISSOR_TEST);
   const CameraMatrices matrices = camera.matrices(viewport.aspect());
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   if (has_frame_) draw_mesh(matrices, style, viewport);
   if (style.grid) draw_grid(matrices, style);
   glDisable(GL_DEPTH_TEST);
-  glDisable(GL_SCISSOR_TEST);
   glBindVertexArray(0);
   glUseProgram(0);
 }
 
-void MeshRenderer::draw_background(const Style& style) {
+void MeshRenderer::draw_background(const Style& style, const Viewport& viewport) {
+  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  glScissor(viewport.x, viewport.y, viewport.width, viewport.height);
+  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_BLEND);
   glUseProgram(background_.get());
   set_colour(glGetUniformLocation(background_.get(), "top"), style.background_top);
   set_colour(glGetUniformLocation(background_.get(), "bottom"), style.background_bottom);
@@ -197,7 +198,9 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style&) {
   std::array<double, 3> center = scene_.center();
   // A hair below what stands on it, so that flat feet do not flicker.
   center[up] = scene_.low()[up] - 0.002 * radius;
-  const auto phase = [&](std::size_t axis) { return static_cast<float>(std::remainder(center[axis] / cell, 10.0)); };
+  const auto phase = [&](std::size_t axis) {
+    return static_cast<float>(std::remainder(center[axis] / cell, 10.0));
+  };
   glUseProgram(program);
   glUniformMatrix4fv(place("view"), 1, GL_FALSE, matrices.view.data());
   glUniformMatrix4fv(place("projection"), 1, GL_FALSE, matrices.projection.data());

@@ -47,6 +47,8 @@ class MeshRenderer {
 
   /// Draws background, mesh and grid; what was in the viewport before is gone.
   void draw(const OrbitCamera& camera, const Style& style, const Viewport& viewport);
+  /// Draws the background alone.
+  void draw_background(const Style& style, const Viewport& viewport);
 
  private:
   struct MeshProgram {
@@ -60,7 +62,6 @@ class MeshRenderer {
   };
 
   const MeshProgram& mesh_program(const Style& style);
-  void draw_background(const Style& style);
   void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
   void draw_grid(const CameraMatrices& matrices, const Style& style);
   void use_colour_map(ColourMap map);

@@ -1,0 +1,95 @@
+#include "cli/tool_error.hpp"
+#include "player/render/shown_frames.hpp"
+#include "player/view/overlay.hpp"
+
+#include <fmt/format.h>
+#include <utility>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr std::uint64_t kMostGopBytes = std::uint64_t{4} << 30;
+
+class CostFrames final : public ShownFrames {
+ public:
+  CostFrames(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted)
+      : gops_(std::move(gops)), wanted_(wanted) {}
+
+  bool next(ShownFrame& frame) override {
+    for (;;) {
+      if (given_ == positions_.size() && !load_gop()) return false;
+      const std::uint64_t number = first_ + given_;
+      frame.positions = positions_[given_++];
+      if (wanted_ && number < wanted_->first) continue;
+      if (wanted_ && number > wanted_->last) return false;
+      frame.number = number;
+      frame.gop = gop_;
+      frame.mesh = mesh_;
+      frame.values = values_;
+      return true;
+    }
+  }
+
+  bool rewind() override {
+    if (!gops_->rewind()) return false;
+    positions_.clear();
+    given_ = 0;
+    ahead_.reset();
+    return true;
+  }
+
+  std::optional<std::uint64_t> total() const override { return gops_->total(); }
+  Metadata metadata() const override { return gops_->metadata(); }
+
+ private:
+  /// Reads a GOP and the frame after it, by which one knows that it has ended.
+  bool load_gop() {
+    positions_.clear();
+    given_ = 0;
+    if (!ahead_) {
+      ahead_.emplace();
+      if (!gops_->next(*ahead_)) return false;
+    }
+    if (!ahead_->mesh) return false;
+    first_ = ahead_->number;
+    gop_ = ahead_->gop;
+    mesh_ = ahead_->mesh;
+    std::uint64_t bytes = 0;
+    while (ahead_->mesh == mesh_ && ahead_->gop == gop_) {
+      bytes += ahead_->positions.size() * (sizeof(float) + sizeof(double));
+      if (bytes > kMostGopBytes) {
+        throw ToolError(ExitStatus::kOther,
+                        fmt::format("--overlay cost: the GOP at frame {} needs more than {} GiB; encode with "
+                                    "a smaller --gop",
+                                    first_, kMostGopBytes >> 30));
+      }
+      positions_.push_back(std::move(ahead_->positions));
+      *ahead_ = {};
+      if (!gops_->next(*ahead_)) {
+        *ahead_ = {};
+        break;
+      }
+    }
+    values_ = cost_values(*mesh_, positions_);
+    return true;
+  }
+
+  std::unique_ptr<ShownFrames> gops_;
+  std::optional<FrameRange> wanted_;
+  std::optional<ShownFrame> ahead_;        // without a mesh: the end is reached
+  std::vector<FramePositions> positions_;  // of the GOP, [frame][vertex][xyz]
+  std::vector<float> values_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::uint64_t first_ = 0;
+  std::uint64_t gop_ = 0;
+  std::size_t given_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ShownFrames> with_cost(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted) {
+  return std::make_unique<CostFrames>(std::move(gops), wanted);
+}
+
+}  // namespace tvg::cli

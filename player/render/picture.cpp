@@ -1,0 +1,79 @@
+#include "player/render/picture.hpp"
+
+#include <algorithm>
+
+#include <tvg/normals.hpp>
+
+namespace tvg::cli {
+
+std::vector<Cell> sheet_cells(int width, int height, int columns, int rows) {
+  std::vector<Cell> cells;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const int x = width * column / columns;
+      const int y = height * row / rows;
+      cells.push_back({x, y, width * (column + 1) / columns - x, height * (row + 1) / rows - y});
+    }
+  }
+  return cells;
+}
+
+PicturePainter::PicturePainter(int width, int height, const Style& style, bool labels)
+    : framebuffer_(width, height), style_(style) {
+  if (labels) text_.emplace(text_size(height));
+}
+
+void PicturePainter::set_scene(const Bounds& bounds, UpAxis up, const OrbitCamera& camera) {
+  shown_.renderer.set_scene(bounds, up);
+  reference_.renderer.set_scene(bounds, up);
+  camera_ = camera;
+}
+
+void PicturePainter::begin() {
+  framebuffer_.bind();
+  glClearColor(0, 0, 0, 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  if (text_) list_ = &text_->begin(framebuffer_.width(), framebuffer_.height());
+}
+
+void PicturePainter::draw(const ShownFrame& frame, Which which, ColourMap map, const Cell& cell) {
+  Subject& subject = which == Which::kShown ? shown_ : reference_;
+  if (subject.mesh != frame.mesh) {
+    subject.mesh = frame.mesh;
+    subject.renderer.set_mesh(*frame.mesh);
+    subject.normals.assign(3 * std::size_t{frame.mesh->vertex_count}, 0.0F);
+  }
+  if (style_.shading == Shading::kSmooth) {
+    vertex_normals(frame.mesh->faces, frame.positions, subject.normals);
+  }
+  subject.renderer.set_frame(frame.positions, subject.normals, frame.values, map);
+  subject.renderer.draw(camera_, style_, viewport(cell));
+}
+
+void PicturePainter::clear(const Cell& cell) {
+  shown_.renderer.draw_background(style_, viewport(cell));
+}
+
+void PicturePainter::label(const Cell& cell, const std::string& text) {
+  if (list_ == nullptr) return;
+  const float size = std::min(text_size(framebuffer_.height()), text_size(2 * cell.height));
+  draw_label(*list_,
+             {static_cast<float>(cell.x) + 0.6F * size,
+              static_cast<float>(cell.y + cell.height) - 2.1F * size, size},
+             text);
+}
+
+void PicturePainter::legend(const Legend& legend) {
+  if (list_ == nullptr) return;
+  const float size = text_size(framebuffer_.height());
+  draw_legend(*list_, {size, size, size}, legend);
+}
+
+const Image& PicturePainter::finish() {
+  if (text_) text_->end();
+  list_ = nullptr;
+  framebuffer_.read(image_);
+  return image_;
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,185 @@
+#include "player/render/render_job.hpp"
+
+#include "cli/progress.hpp"
+#include "cli/tool_error.hpp"
+#include "player/render/overlay_frames.hpp"
+#include "player/render/picture.hpp"
+#include "player/render/picture_output.hpp"
+#include "player/render/sheet.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tvg::cli {
+
+namespace {
+
+class RenderJob {
+ public:
+  explicit RenderJob(const RenderOptions& options)
+      : options_(options), frames_(options), bar_("rendering", options.quiet) {}
+
+  void run() {
+    const bool single = options_.kind == RenderOptions::Output::kPicture;
+    // What a file holds is looked through first, so that camera and colours keep still; a pipe shows its
+    // first frame only.
+    if (frames_.rewind()) {
+      survey_all();
+    } else if (single && !options_.frames) {
+      throw ToolError(ExitStatus::kUsage,
+                      "standard input can be read only once: name the frames of the picture with --frames");
+    } else {
+      count_ =
+          options_.frames ? std::optional(options_.frames->last - options_.frames->first + 1) : std::nullopt;
+    }
+    PicturePainter painter(options_.width, options_.height, options_.style, options_.labels);
+    if (single && (count_ != 1 || options_.sheet)) {
+      draw_sheet(painter);
+    } else {
+      draw_frames(painter);
+    }
+    if (options_.quiet) return;
+    bar_.clear();
+    report();
+  }
+
+ private:
+  void survey_all() {
+    std::uint64_t count = 0;
+    ProgressBar bar("looking through", options_.quiet);
+    while (frames_.next()) {
+      survey_frame();
+      bar.update(++count, frames_.wanted());
+    }
+    if (count == 0) throw no_frames();
+    check_complete(count);
+    count_ = count;
+    surveyed_ = true;
+    frames_.rewind();
+  }
+
+  void survey_frame() {
+    bounds_.extend(frames_.frame().positions);
+    if (options_.side_by_side) bounds_.extend(frames_.reference().positions);
+    frames_.measure();
+  }
+
+  /// Once the camera knows what it looks at: after the survey, or at the first frame of a pipe.
+  void prepare(PicturePainter& painter, int cell_width, int cell_height) {
+    if (!surveyed_) {
+      survey_frame();
+      bounds_.pad(0.12);
+    }
+    frames_.set_scale(surveyed_);
+    const Metadata metadata = frames_.metadata();
+    const auto up = metadata.find("up");
+    OrbitCamera camera;
+    camera.set_angles(options_.angles);
+    const UpAxis up_axis = up != metadata.end() && up->second == "z" ? UpAxis::kZ : UpAxis::kY;
+    camera.fit_closely(bounds_, up_axis, static_cast<double>(cell_width) / cell_height);
+    painter.set_scene(bounds_, up_axis, camera);
+  }
+
+  void draw_frames(PicturePainter& painter) {
+    const std::unique_ptr<PictureOutput> output = open_output(options_, frame_rate());
+    const std::vector<Cell> cells =
+        sheet_cells(options_.width, options_.height, options_.side_by_side ? 2 : 1, 1);
+    while (frames_.next()) {
+      if (drawn_ == 0) prepare(painter, cells[0].width, cells[0].height);
+      painter.begin();
+      draw_frame(painter, cells, {});
+      if (frames_.legend()) painter.legend(*frames_.legend());
+      output->add(painter.finish(), frames_.frame().number);
+      bar_.update(++drawn_, count_);
+    }
+    if (drawn_ == 0) throw no_frames();
+    check_complete(drawn_);
+    output->finish();
+    files_ = output->files();
+  }
+
+  void draw_sheet(PicturePainter& painter) {
+    const int across = options_.side_by_side ? 2 : 1;
+    const SheetShape shape =
+        options_.sheet ? *options_.sheet : sheet_shape(*count_, options_.width, options_.height * across);
+    const std::vector<std::uint64_t> wanted = spread_evenly(
+        *count_, static_cast<std::uint64_t>(shape.columns) * static_cast<std::uint64_t>(shape.rows));
+    const std::vector<Cell> cells =
+        sheet_cells(options_.width, options_.height, shape.columns * across, shape.rows);
+    painter.begin();
+    std::uint64_t position = 0;
+    while (drawn_ < wanted.size() && frames_.next()) {
+      if (position == 0) prepare(painter, cells[0].width, cells[0].height);
+      if (position++ != wanted[drawn_]) continue;
+      const auto first = cells.begin() + static_cast<std::ptrdiff_t>(drawn_) * across;
+      draw_frame(painter, {first, first + across}, fmt::format("frame {}", frames_.frame().number));
+      bar_.update(++drawn_, wanted.size());
+    }
+    if (drawn_ < wanted.size()) check_complete(position);
+    for (std::size_t i = drawn_ * static_cast<std::size_t>(across); i < cells.size(); ++i)
+      painter.clear(cells[i]);
+    if (frames_.legend()) painter.legend(*frames_.legend());
+    write_png(options_.output, painter.finish());
+    files_ = {options_.output};
+  }
+
+  /// Draws the frame, after the reference where both are wanted.
+  void draw_frame(PicturePainter& painter, const std::vector<Cell>& cells, const std::string& name) {
+    if (options_.side_by_side) {
+      painter.draw(frames_.reference(), PicturePainter::Which::kReference, frames_.map(), cells[0]);
+      painter.label(cells[0], name.empty() ? "reference" : name + ", reference");
+    }
+    painter.draw(frames_.frame(), PicturePainter::Which::kShown, frames_.map(), cells.back());
+    if (options_.side_by_side) {
+      painter.label(cells.back(), name.empty() ? "decoded" : name + ", decoded");
+    } else if (!name.empty()) {
+      painter.label(cells.back(), name);
+    }
+  }
+
+  std::string frame_rate() const {
+    if (options_.fps) return *options_.fps;
+    const Metadata metadata = frames_.metadata();
+    const auto fps = metadata.find("fps");
+    return fps != metadata.end() && is_frame_rate(fps->second) ? fps->second : "30";
+  }
+
+  ToolError no_frames() const {
+    return {ExitStatus::kInvalidInput, options_.inputs.front() + ": there is no frame to draw"};
+  }
+
+  void check_complete(std::uint64_t count) const {
+    if (!options_.frames || count == options_.frames->last - options_.frames->first + 1) return;
+    throw ToolError(
+        ExitStatus::kUsage,
+        fmt::format("--frames {}-{}: {} ends after frame {}", options_.frames->first, options_.frames->last,
+                    options_.inputs.front(), options_.frames->first + count - 1));
+  }
+
+  void report() const {
+    if (files_.size() == 1) {
+      fmt::print(stderr, "{}: {} {}, {}x{}\n", files_[0], drawn_, drawn_ == 1 ? "frame" : "frames",
+                 options_.width, options_.height);
+    } else {
+      fmt::print(stderr, "{} to {}: {} pictures, {}x{}\n", files_.front(), files_.back(), files_.size(),
+                 options_.width, options_.height);
+    }
+  }
+
+  const RenderOptions& options_;
+  OverlayFrames frames_;
+  ProgressBar bar_;
+  Bounds bounds_;
+  bool surveyed_ = false;
+  std::optional<std::uint64_t> count_;  // frames that are wanted
+  std::uint64_t drawn_ = 0;
+  std::vector<std::string> files_;
+};
+
+}  // namespace
+
+void render(const RenderOptions& options) {
+  RenderJob(options).run();
+}
+
+}  // namespace tvg::cli

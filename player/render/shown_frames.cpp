@@ -1,0 +1,21 @@
+#include "player/render/shown_frames.hpp"
+
+#include "cli/mesh_format.hpp"
+#include "cli/tool_error.hpp"
+
+namespace tvg::cli {
+
+bool is_stream(const std::vector<std::string>& inputs) {
+  return inputs.size() == 1 && (inputs[0] == "-" || has_suffix(inputs[0], ".tvg"));
+}
+
+std::unique_ptr<ShownFrames> open_frames(const ShownFramesSpec& spec) {
+  if (is_stream(spec.inputs)) return open_stream_frames(spec);
+  if (spec.flags) {
+    throw ToolError(ExitStatus::kUsage, "--overlay importance: " + spec.inputs.front() +
+                                            " has no importance flags: encode it first, and name the .tvg");
+  }
+  return open_source_frames(spec);
+}
+
+}  // namespace tvg::cli

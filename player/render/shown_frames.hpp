@@ -1,0 +1,63 @@
+#pragma once
+#include "encoder/importers/frame_range.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tvg/mesh.hpp>
+#include <tvg/sequence.hpp>
+
+namespace tvg::cli {
+
+/// A frame to be drawn, with all that belongs to it.
+struct ShownFrame {
+  std::uint64_t number = 0;          ///< in its sequence, counted from 0
+  std::uint64_t gop = 0;             ///< equal for frames that are coded together
+  std::shared_ptr<const Mesh> mesh;  ///< the same object as long as the mesh stays
+  FramePositions positions;          ///< [vertex][xyz]
+  std::vector<float> values;         ///< [vertex], of an overlay in its own units; empty without one
+};
+
+/// Frames one after the other, from a stream or from files. Broken input is a ToolError.
+class ShownFrames {
+ public:
+  virtual ~ShownFrames() = default;
+
+  /// Fills `frame`, whose memory is used again; false at the end.
+  virtual bool next(ShownFrame& frame) = 0;
+  /// Goes back to the first frame; false, and nothing happens, where the input can be read only once.
+  virtual bool rewind() = 0;
+  /// The number of frames, or of those up to the range's last, where it is known before the end.
+  virtual std::optional<std::uint64_t> total() const = 0;
+  /// Valid as soon as the frames are open.
+  virtual Metadata metadata() const = 0;
+};
+
+struct ShownFramesSpec {
+  std::vector<std::string> inputs;   ///< a .tvg, "-" for one on standard input, or as SourceSpec has them
+  std::optional<FrameRange> frames;  ///< all where absent
+  bool flags = false;                ///< `values` are the importance flags, 1 or 0; only a .tvg has them
+  bool whole_gops = false;           ///< give out all frames of the GOPs that the range touches
+  bool conceal = false;              ///< hold the last good frame where frames are lost, and say so
+};
+
+/// Whether these inputs are a .tvg.
+bool is_stream(const std::vector<std::string>& inputs);
+
+/// Opens what a user names. Throws ToolError: kUsage for inputs that do not fit together, for a range outside
+/// the sequence and for flags of what is no .tvg; kIo; kInvalidInput.
+std::unique_ptr<ShownFrames> open_frames(const ShownFramesSpec& spec);
+
+// The two kinds of input behind it.
+std::unique_ptr<ShownFrames> open_stream_frames(const ShownFramesSpec& spec);
+std::unique_ptr<ShownFrames> open_source_frames(const ShownFramesSpec& spec);
+
+/// Frames whose values are the measure's cost over their GOP. `gops` gives out whole GOPs; of these, frames
+/// of `wanted` are passed on. One GOP is in memory at a time; a ToolError (kOther) where that is more than
+/// 4 GiB.
+std::unique_ptr<ShownFrames> with_cost(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted);
+
+}  // namespace tvg::cli

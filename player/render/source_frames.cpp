@@ -1,0 +1,71 @@
+#include "cli/tool_error.hpp"
+#include "encoder/importers/open_source.hpp"
+#include "player/render/shown_frames.hpp"
+
+#include <tvg/encoder.hpp>
+
+namespace tvg::cli {
+
+namespace {
+
+/// Frames of mesh files and caches. They have no GOPs: those that encoding them by default would make stand
+/// in.
+class SourceFrames final : public ShownFrames {
+ public:
+  explicit SourceFrames(const ShownFramesSpec& spec) {
+    const bool cut = spec.frames && !spec.whole_gops;
+    source_ = open_source({spec.inputs, cut ? spec.frames : std::nullopt}).source;
+    mesh_ = std::make_shared<const Mesh>(source_->mesh());
+    if (cut) begin_ = spec.frames->first;
+    number_ = begin_;
+    if (!spec.frames || cut) return;
+    if (source_->frame_count()) check_frame_range(*spec.frames, *source_->frame_count(), spec.inputs.back());
+    first_ = spec.frames->first - spec.frames->first % kGopFrames;
+    last_ = spec.frames->last - spec.frames->last % kGopFrames + kGopFrames - 1;
+  }
+
+  bool next(ShownFrame& frame) override {
+    frame.positions.resize(3 * std::size_t{mesh_->vertex_count});
+    do {
+      if (number_ > last_) return false;
+      const Result<bool> read = source_->read_frame(frame.positions);
+      if (!read) throw tool_error(read.error());
+      if (!*read) return false;
+    } while (number_++ < first_);
+    frame.mesh = mesh_;
+    frame.number = number_ - 1;
+    frame.gop = frame.number / kGopFrames;
+    frame.values.clear();
+    return true;
+  }
+
+  bool rewind() override {
+    if (!source_->rewind()) return false;
+    number_ = begin_;
+    return true;
+  }
+
+  std::optional<std::uint64_t> total() const override {
+    const std::optional<std::uint64_t> frames = source_->frame_count();
+    return frames ? std::optional(begin_ + *frames) : std::nullopt;
+  }
+  Metadata metadata() const override { return source_->metadata(); }
+
+ private:
+  inline static const std::uint64_t kGopFrames = EncodeOptions{}.gop_frames;
+
+  std::unique_ptr<FrameSource> source_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::uint64_t begin_ = 0;   // number of the source's first frame
+  std::uint64_t number_ = 0;  // of the source's next frame
+  std::uint64_t first_ = 0;   // frames before it are passed over
+  std::uint64_t last_ = UINT64_MAX;
+};
+
+}  // namespace
+
+std::unique_ptr<ShownFrames> open_source_frames(const ShownFramesSpec& spec) {
+  return std::make_unique<SourceFrames>(spec);
+}
+
+}  // namespace tvg::cli

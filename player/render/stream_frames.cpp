@@ -1,0 +1,187 @@
+#include "cli/tool_error.hpp"
+#include "decoder/stream_reader.hpp"
+#include "player/render/shown_frames.hpp"
+#include "player/view/overlay.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace tvg::cli {
+
+namespace {
+
+/// A damaged number of lost frames must not fill the disk with pictures.
+constexpr std::uint64_t kMostLost = 1U << 20;
+
+/// Frames of a .tvg. Where frames are lost and that is to be concealed, the last good one is given out again
+/// under their numbers; the first good one where there was none before.
+class StreamFrames final : public ShownFrames {
+ public:
+  explicit StreamFrames(const ShownFramesSpec& spec) : spec_(spec) { open(); }
+
+  bool next(ShownFrame& frame) override {
+    for (;;) {
+      if (past_range(number_)) return false;
+      if (loaded_ && number_ <= loaded_frame_.number) return give_out(frame);
+      if (ended_) {
+        if (number_ >= lost_end_ || !held_.mesh) return false;
+        loaded_frame_ = held_;
+        loaded_frame_.number = lost_end_ - 1;
+        loaded_ = true;
+        continue;
+      }
+      pull();
+    }
+  }
+
+  bool rewind() override {
+    if (!reader_->size()) return false;
+    told_ = told_ || lost_end_ > 0;
+    open();
+    return true;
+  }
+
+  std::optional<std::uint64_t> total() const override { return total_; }
+  Metadata metadata() const override { return reader_->decoder().metadata(); }
+
+ private:
+  void open() {
+    reader_ = std::make_unique<StreamReader>(spec_.inputs.front());
+    loaded_ = ended_ = false;
+    held_ = {};
+    mesh_.reset();
+    number_ = lost_end_ = gop_ = 0;
+    const auto index = reader_->read_index();
+    if (index) {
+      total_ = 0;
+      for (const IndexEntry& entry : *index) *total_ += entry.frame_count;
+      if (spec_.frames) check_frame_range(*spec_.frames, *total_, reader_->name());
+    }
+    while (!mesh_ && !ended_) pull();
+    if (!mesh_) throw ToolError(ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
+    if (!spec_.frames) return;
+    number_ = spec_.frames->first;
+    if (index) pass_over(*index);
+  }
+
+  /// Goes to the GOP of the first wanted frame, or to its mesh where that is not the first.
+  void pass_over(const std::vector<IndexEntry>& index) {
+    std::uint64_t frame = 0;
+    std::uint64_t mesh_frame = 0;
+    int meshes = 0;
+    const IndexEntry* mesh = nullptr;
+    for (const IndexEntry& entry : index) {
+      if (entry.kind == IndexEntry::Kind::kMesh) {
+        mesh = &entry;
+        mesh_frame = frame;
+        ++meshes;
+      } else if (frame + entry.frame_count > number_) {
+        if (frame > 0)
+          reader_->jump(meshes > 1 ? mesh->offset : entry.offset, meshes > 1 ? mesh_frame : frame);
+        return;
+      }
+      frame += entry.frame_count;
+    }
+  }
+
+  bool past_range(std::uint64_t number) const {
+    if (!spec_.frames || number <= spec_.frames->last) return false;
+    return !spec_.whole_gops || !loaded_ || number > gop_end_;
+  }
+
+  bool give_out(ShownFrame& frame) {
+    const bool lost = number_ < loaded_frame_.number;
+    frame = lost && held_.mesh ? held_ : loaded_frame_;
+    frame.number = number_++;
+    if (!lost) held_ = loaded_frame_;
+    return true;
+  }
+
+  /// Takes the decoder's next event.
+  void pull() {
+    const Decoder::Event event = reader_->next();
+    const Decoder& decoder = reader_->decoder();
+    switch (event) {
+      case Decoder::Event::kMesh:
+        mesh_ = std::make_shared<const Mesh>(decoder.mesh());
+        break;
+      case Decoder::Event::kGop:
+        begin_gop(decoder.gop());
+        break;
+      case Decoder::Event::kFrame:
+        load(decoder);
+        break;
+      case Decoder::Event::kDamage:
+        lose(decoder.damage());
+        break;
+      case Decoder::Event::kError:
+        if (!spec_.conceal || !held_.mesh) throw tool_error(reader_->name(), decoder.error());
+        fmt::print(stderr, "tvg: {}: {}\n", reader_->name(), decoder.error().describe());
+        ended_ = true;
+        break;
+      case Decoder::Event::kEnd:
+        ended_ = true;
+        break;
+      default:
+        break;
+    }
+  }
+
+  void begin_gop(const GopInfo& gop) {
+    ++gop_;
+    gop_end_ = gop.first_frame + gop.frame_count - 1;
+    if (spec_.whole_gops && number_ > gop.first_frame && number_ <= gop_end_) number_ = gop.first_frame;
+  }
+
+  void load(const Decoder& decoder) {
+    loaded_ = true;
+    loaded_frame_.number = decoder.frame_number();
+    loaded_frame_.gop = gop_;
+    loaded_frame_.mesh = mesh_;
+    loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
+    decoder.copy_positions(loaded_frame_.positions.data());
+    if (!spec_.flags) return;
+    flags_.resize(mesh_->vertex_count);
+    decoder.copy_flags(flags_);
+    loaded_frame_.values.resize(flags_.size());
+    importance_values(flags_, loaded_frame_.values);
+  }
+
+  void lose(const Damage& damage) {
+    const std::uint64_t end = damage.first_frame + std::min(damage.frame_count, kMostLost + 1);
+    const bool of_use = !spec_.frames || (end > number_ && damage.first_frame <= spec_.frames->last);
+    if (damage.frame_count > 0 && !of_use) return;
+    const std::string where =
+        damage.frame_count > 0 ? frame_run(damage.first_frame, damage.frame_count) + " lost: " : "";
+    const std::string text = fmt::format("{}: {}{}", reader_->name(), where, damage.error.describe());
+    if (!spec_.conceal) {
+      throw ToolError(ExitStatus::kInvalidInput, text + " (--conceal holds the last good frame instead)");
+    }
+    if (damage.frame_count > kMostLost) throw ToolError(ExitStatus::kInvalidInput, text);
+    if (!told_) fmt::print(stderr, "tvg: {}\n", text);
+    lost_end_ = std::max(lost_end_, end);
+  }
+
+  ShownFramesSpec spec_;
+  std::unique_ptr<StreamReader> reader_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::optional<std::uint64_t> total_;
+  std::vector<std::uint8_t> flags_;
+  ShownFrame loaded_frame_;  // the newest that the decoder gave
+  ShownFrame held_;          // the last good one given out
+  bool loaded_ = false;
+  bool ended_ = false;
+  bool told_ = false;           // whether the user has heard of the damage, in an earlier pass
+  std::uint64_t number_ = 0;    // of the next frame to give out
+  std::uint64_t lost_end_ = 0;  // one past the last frame lost
+  std::uint64_t gop_ = 0;
+  std::uint64_t gop_end_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ShownFrames> open_stream_frames(const ShownFramesSpec& spec) {
+  return std::make_unique<StreamFrames>(spec);
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,142 @@
+#include "player/view/text_layer.hpp"
+
+#include "cli/tool_error.hpp"
+
+#include <algorithm>
+#include <backends/imgui_impl_opengl3.h>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <imgui.h>
+#include <system_error>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr ImU32 kInk = IM_COL32(38, 42, 52, 255);
+constexpr ImU32 kFaintInk = IM_COL32(38, 42, 52, 170);
+constexpr ImU32 kPlate = IM_COL32(255, 255, 255, 165);
+
+ImU32 packed(const Colour& colour) {
+  const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
+  return IM_COL32(byte(colour.red), byte(colour.green), byte(colour.blue), 255);
+}
+
+float text_width(float size, const std::string& text) {
+  return ImGui::GetFont()->CalcTextSizeA(size, 1e6F, 0, text.c_str()).x;
+}
+
+void put(ImDrawList& list, float size, float x, float y, ImU32 colour, const std::string& text) {
+  // Letters are sharp where they start on whole pixels.
+  list.AddText(ImGui::GetFont(), size, {std::round(x), std::round(y)}, colour, text.c_str());
+}
+
+void plate(ImDrawList& list, const TextPlace& place, float width, float height) {
+  list.AddRectFilled({place.x, place.y}, {place.x + width, place.y + height}, kPlate, place.size * 0.35F);
+}
+
+/// The bar with its numbers, its upper left corner at (x, y).
+void draw_scale(ImDrawList& list, float x, float y, float size, const Legend& legend) {
+  constexpr int kPieces = 64;
+  const float width = 0.9F * size;
+  const float height = 8 * size;
+  for (int i = 0; i < kPieces; ++i) {
+    const float top = y + height * static_cast<float>(i) / kPieces;
+    const float bottom = y + height * static_cast<float>(i + 1) / kPieces;
+    const ImU32 above = packed(map_colour(legend.map, 1 - static_cast<double>(i) / kPieces));
+    const ImU32 below = packed(map_colour(legend.map, 1 - static_cast<double>(i + 1) / kPieces));
+    list.AddRectFilledMultiColor({x, top}, {x + width, bottom}, above, above, below, below);
+  }
+  constexpr int kTicks = 4;
+  for (int i = 0; i <= kTicks; ++i) {
+    const double value = legend.largest * (kTicks - i) / kTicks;
+    const float at = y + height * static_cast<float>(i) / kTicks;
+    list.AddLine({x + width, at}, {x + width + 0.3F * size, at}, kFaintInk);
+    const std::string text =
+        fmt::format("{:.3g}{}", value, i == 0 && !legend.units.empty() ? " " + legend.units : "");
+    put(list, 0.85F * size, x + width + 0.5F * size, at - 0.47F * size, kInk, text);
+  }
+}
+
+void draw_swatch(ImDrawList& list, float x, float y, float size, const Colour& colour,
+                 const std::string& text) {
+  list.AddRectFilled({x, y + 0.1F * size}, {x + 0.9F * size, y + size}, packed(colour), 0.15F * size);
+  put(list, 0.85F * size, x + 1.4F * size, y + 0.12F * size, kInk, text);
+}
+
+}  // namespace
+
+float text_size(int picture_height) {
+  return std::round(std::clamp(static_cast<float>(picture_height) / 42, 11.0F, 40.0F));
+}
+
+void draw_label(ImDrawList& list, const TextPlace& place, const std::string& text) {
+  plate(list, place, text_width(place.size, text) + place.size, 1.5F * place.size);
+  put(list, place.size, place.x + 0.5F * place.size, place.y + 0.22F * place.size, kInk, text);
+}
+
+void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend) {
+  const float size = place.size;
+  const bool flags = legend.map == ColourMap::kFlags;
+  const float noted = legend.note.empty() ? 0 : 1.1F * size;
+  float width = std::max(text_width(size, legend.title), text_width(0.8F * size, legend.note));
+  width = std::max(
+      width, 1.4F * size + text_width(0.85F * size, flags ? legend.flagged : "0.00012 " + legend.units));
+  if (flags) width = std::max(width, 1.4F * size + text_width(0.85F * size, legend.plain));
+  plate(list, place, width + 1.4F * size, (flags ? 4.9F : 11.0F) * size + noted);
+  const float x = place.x + 0.7F * size;
+  float y = place.y + 0.45F * size;
+  put(list, size, x, y, kInk, legend.title);
+  y += 1.3F * size;
+  if (!legend.note.empty()) put(list, 0.8F * size, x, y, kFaintInk, legend.note);
+  y += noted + 0.4F * size;
+  if (flags) {
+    draw_swatch(list, x, y, size, map_colour(legend.map, 1), legend.flagged);
+    draw_swatch(list, x, y + 1.4F * size, size, map_colour(legend.map, 0), legend.plain);
+  } else {
+    draw_scale(list, x, y, size, legend);
+  }
+}
+
+TextLayer::TextLayer(float largest_size) : context_(ImGui::CreateContext()) {
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;
+  io.LogFilename = nullptr;
+  std::error_code none;
+  if (std::filesystem::is_regular_file(kFont, none)) {
+    io.Fonts->AddFontFromFileTTF(kFont, largest_size);
+  } else {
+    io.Fonts->AddFontDefault();
+  }
+  if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
+    ImGui::DestroyContext(context_);
+    throw ToolError(ExitStatus::kOther, "cannot draw text: OpenGL's functions are not found (libGL.so.1)");
+  }
+}
+
+TextLayer::~TextLayer() {
+  ImGui::SetCurrentContext(context_);
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui::DestroyContext(context_);
+}
+
+ImDrawList& TextLayer::begin(int width, int height) {
+  ImGui::SetCurrentContext(context_);
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
+  io.DeltaTime = 1.0F / 60;
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui::NewFrame();
+  return *ImGui::GetBackgroundDrawList();
+}
+
+void TextLayer::end() {
+  ImGui::SetCurrentContext(context_);
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace tvg::cli

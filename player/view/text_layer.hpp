@@ -1,0 +1,58 @@
+#pragma once
+#include "player/view/colour_map.hpp"
+
+#include <string>
+
+struct ImDrawList;
+struct ImGuiContext;
+
+namespace tvg::cli {
+
+/// A colour bar with what its colours mean.
+struct Legend {
+  ColourMap map = ColourMap::kViridis;
+  std::string title;   ///< "error"
+  std::string note;    ///< a second, smaller line; may be empty
+  double largest = 1;  ///< value at the bar's upper end; 0 is at its lower one; of no meaning for kFlags
+  std::string units;   ///< of the values, may be empty
+  std::string plain;   ///< kFlags: what the two colours stand for
+  std::string flagged;
+};
+
+/// Where text goes, in pixels from the upper left corner, and how large it is.
+struct TextPlace {
+  float x = 0;
+  float y = 0;
+  float size = 16;
+};
+
+/// Height of letters that suit a picture of this many pixels in height.
+float text_size(int picture_height);
+
+/// A line of text on a soft plate at `place`, its upper left corner. ImGui must have a frame begun.
+void draw_label(ImDrawList& list, const TextPlace& place, const std::string& text);
+
+/// The legend; `place` is its upper left corner. ImGui must have a frame begun.
+void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend);
+
+/// Text over a picture that has no window: a Dear ImGui of its own, without keyboard and mouse. Needs a
+/// current OpenGL 3.3 context for as long as it lives.
+class TextLayer {
+ public:
+  /// `largest_size`: of the letters that will be drawn, in pixels. Throws ToolError (kOther).
+  explicit TextLayer(float largest_size);
+  ~TextLayer();
+  TextLayer(const TextLayer&) = delete;
+  TextLayer& operator=(const TextLayer&) = delete;
+
+  /// Begins the text of a picture; what is drawn to the list appears with end(). The list is valid until
+  /// then.
+  ImDrawList& begin(int width, int height);
+  /// Draws the text into the framebuffer that is bound.
+  void end();
+
+ private:
+  ImGuiContext* context_;
+};
+
+}  // namespace tvg::cli
