@@ -1,5 +1,6 @@
 #include "cli/tool_error.hpp"
 #include "player/playback/file_input.hpp"
+#include "player/playback/http_input.hpp"
 #include "player/playback/pipe_input.hpp"
 #include "player/playback/stream_input.hpp"
 
@@ -13,6 +14,9 @@
 namespace tvg::cli {
 
 std::unique_ptr<StreamInput> open_stream_input(const std::string& location) {
+  if (location.starts_with("http://") || location.starts_with("https://")) {
+    return std::make_unique<HttpInput>(location);
+  }
   const bool standard_input = location == "-";
   const std::string name = standard_input ? "standard input" : location;
   const int descriptor = standard_input ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)

@@ -177,7 +177,8 @@ void StreamLoader::feed() {
       const std::lock_guard lock(mutex_);
       if (stopped_ || request_) return;
     }
-    if (input_->begin_anew()) {
+    constexpr int kMostInVain = 5;
+    if (openings_in_vain_++ < kMostInVain && input_->begin_anew()) {
       begin_live_anew();
     } else {
       fail(count.error());
@@ -289,6 +290,7 @@ void StreamLoader::push_frame(std::shared_ptr<PlayerFrame> frame) {
     state_.state = LoaderSnapshot::State::kReady;
   }
   ring_.push(std::move(frame));
+  openings_in_vain_ = 0;
   pushed_in_round_ = true;
   if (!wants_index_) {
     wants_index_ = true;

@@ -159,6 +159,7 @@ class StreamLoader {
   std::optional<std::uint64_t> target_;  ///< frame to seek as soon as the head is in
   bool has_head_ = false;
   bool failed_ = false;
+  int openings_in_vain_ = 0;  ///< of a live stream, since it brought a frame
   bool pushed_in_round_ = false;  ///< a loop with no frame at all must end
   std::shared_ptr<const PlayerGop> gop_;
   std::shared_ptr<FrameDecorator> used_decorator_;
