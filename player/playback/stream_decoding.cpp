@@ -62,7 +62,7 @@ StreamLoader::Work StreamLoader::wait_for_work() {
     const bool slot = pool_.has_free();
     if (room && slot && active_) return Work::kDecode;
     if (room && slot && loop_ && state_.state == LoaderSnapshot::State::kEnded && pushed_in_round_ &&
-        input_->reaches(0)) {
+        !began_anew_ && input_->reaches(0)) {
       return Work::kLoop;
     }
     if (room && !slot) {  // nobody tells when a frame is let go
@@ -195,6 +195,10 @@ void StreamLoader::feed() {
 
 /// The frames of a live stream that is opened again follow those that came before.
 void StreamLoader::begin_live_anew() {
+  {
+    const std::lock_guard lock(mutex_);
+    began_anew_ = true;
+  }
   base_ = next_frame_;
   decoder_.reset();
   go_to(base_);
@@ -328,7 +332,7 @@ void StreamLoader::end_stream() {
     const std::lock_guard lock(mutex_);
     facts_.note_end(next_frame_);
     if (request_) return;
-    const bool again = loop_ && pushed_in_round_ && input_->reaches(0);
+    const bool again = loop_ && pushed_in_round_ && !began_anew_ && input_->reaches(0);
     if (!again) {
       ring_.close(next_frame_, next_frame_);
       active_ = false;

@@ -101,6 +101,7 @@ StreamLoader::Supply StreamLoader::supply() const {
   supply.ahead = ring_.ahead();
   supply.failed = state_.state == LoaderSnapshot::State::kFailed;
   supply.complete = !request_ && (!active_ || !ring_.has_room());
+  supply.can_go_back = !began_anew_ && input_->reaches(0);
   supply.frame_count = facts_.frame_count();
   return supply;
 }

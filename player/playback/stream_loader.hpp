@@ -93,6 +93,7 @@ class StreamLoader {
     std::size_t ahead = 0;
     bool complete = false;  ///< no more will come, or no more fit
     bool failed = false;
+    bool can_go_back = true;  ///< to frame 0; not in a pipe or a live stream whose beginning was dropped
     std::optional<std::uint64_t> frame_count;
   };
   Supply supply() const;
@@ -145,7 +146,8 @@ class StreamLoader {
   bool wants_index_ = false;
   bool index_done_ = false;
   bool active_ = true;   ///< there is more to decode
-  bool opened_ = false;  ///< a frame has been decoded
+  bool began_anew_ = false;  ///< a live stream was opened again
+  bool opened_ = false;      ///< a frame has been decoded
   bool stopped_ = false;
 
   // Of the decoding thread alone.
