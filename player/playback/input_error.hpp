@@ -1,0 +1,13 @@
+#pragma once
+#include <string>
+
+#include <tvg/error.hpp>
+
+namespace tvg::cli {
+
+/// What befell an input, with its name in front.
+inline Error input_error(const std::string& name, const std::string& what) {
+  return {ErrorCode::kIo, name + ": " + what, {}, {}, ""};
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,357 @@
+#include "player/playback/stream_loader.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <tvg/normals.hpp>
+
+// The decoding thread of the loader.
+namespace tvg::cli {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// Frames that may be held outside the ring: the one being made, the one shown, and two that the window still
+// compares it with.
+constexpr std::size_t kFramesOutside = 4;
+
+}  // namespace
+
+void StreamLoader::run() {
+  go_to(0);
+  for (;;) {
+    switch (wait_for_work()) {
+      case Work::kStop:
+        return;
+      case Work::kRequest: {
+        Request request;
+        {
+          const std::lock_guard lock(mutex_);
+          request = *std::exchange(request_, std::nullopt);
+          active_ = true;
+          state_.state = opened_ ? LoaderSnapshot::State::kReady : LoaderSnapshot::State::kOpening;
+          state_.message.clear();
+          input_->resume();
+        }
+        begin_request(request);
+        break;
+      }
+      case Work::kLoop:
+        begin_round(next_frame_);
+        break;
+      case Work::kDecode:
+        take_index();
+        advance();
+        break;
+    }
+  }
+}
+
+StreamLoader::Work StreamLoader::wait_for_work() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    if (stopped_) return Work::kStop;
+    if (request_) return Work::kRequest;
+    const bool room = ring_.has_room();
+    const bool slot = pool_.has_free();
+    if (room && slot && active_) return Work::kDecode;
+    if (room && slot && loop_ && state_.state == LoaderSnapshot::State::kEnded && pushed_in_round_ &&
+        !began_anew_ && input_->reaches(0)) {
+      return Work::kLoop;
+    }
+    if (room && !slot) {  // nobody tells when a frame is let go
+      work_.wait_for(lock, std::chrono::milliseconds(5));
+    } else {
+      work_.wait(lock);
+    }
+  }
+}
+
+void StreamLoader::take_index() {
+  const std::lock_guard lock(mutex_);
+  if (!new_index_) return;
+  entries_ = *std::exchange(new_index_, std::nullopt);
+  decoder_->set_index(entries_);
+}
+
+void StreamLoader::begin_request(const Request& request) {
+  wait_for_index(request.frame);
+  take_index();
+  std::uint64_t start = request.frame;
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_) return;
+    const std::optional<std::uint64_t> count = facts_.frame_count();
+    if (count && *count > 0) start = std::min(start, *count - 1);
+    if (const GopMark* gop = facts_.gop_of(start)) {
+      start -= std::min(request.lead_in, start - gop->first_frame);
+    }
+    ring_.reset(start);
+    pushed_in_round_ = false;
+  }
+  go_to(start);
+}
+
+/// A frame that has not been met yet is reached by the index, if there is one, rather than by reading on.
+void StreamLoader::wait_for_index(std::uint64_t frame) {
+  if (!has_head_) return;
+  std::unique_lock lock(mutex_);
+  wants_index_ = true;
+  index_.notify_all();
+  if (frame < facts_.known_end()) return;
+  work_.wait(lock, [this] { return index_done_ || stopped_ || request_; });
+}
+
+void StreamLoader::go_to(std::uint64_t frame) {
+  target_.reset();
+  if (!decoder_ || failed_) {
+    decoder_ = std::make_unique<Decoder>(options_.limits);
+    decoder_->measure_bits(options_.measure_bits);
+    if (!entries_.empty()) decoder_->set_index(entries_);
+    offset_ = 0;
+    has_head_ = false;
+    failed_ = false;
+  }
+  if (!has_head_) {
+    if (frame > base_) target_ = frame;
+    return;
+  }
+  const Result<std::uint64_t> offset = decoder_->seek(frame - std::min(frame, base_));
+  if (!offset) {
+    fail(offset.error());
+    return;
+  }
+  offset_ = *offset;
+  next_frame_ = frame;
+}
+
+void StreamLoader::advance() {
+  const Clock::time_point start = Clock::now();
+  switch (decoder_->poll()) {
+    case Decoder::Event::kNeedBytes:
+      feed();
+      break;
+    case Decoder::Event::kHead:
+      has_head_ = true;
+      if (target_) begin_request({*target_, 0});
+      break;
+    case Decoder::Event::kMetadata: {
+      const std::lock_guard lock(mutex_);
+      state_.metadata = decoder_->metadata();
+      break;
+    }
+    case Decoder::Event::kMesh:
+      begin_mesh();
+      break;
+    case Decoder::Event::kGop:
+      begin_gop();
+      break;
+    case Decoder::Event::kFrame:
+      take_frame(milliseconds_since(start));
+      break;
+    case Decoder::Event::kDamage:
+      note_damage();
+      break;
+    case Decoder::Event::kEnd:
+      end_stream();
+      break;
+    case Decoder::Event::kError:
+      fail(decoder_->error());
+      break;
+    case Decoder::Event::kChunk:
+      break;
+  }
+}
+
+void StreamLoader::feed() {
+  offset_ += decoder_->skip();
+  const Result<std::size_t> count = input_->read(offset_, piece_);
+  if (!count) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (stopped_ || request_) return;
+    }
+    constexpr int kMostInVain = 5;
+    if (openings_in_vain_++ < kMostInVain && input_->begin_anew()) {
+      begin_live_anew();
+    } else {
+      fail(count.error());
+    }
+    return;
+  }
+  if (*count == 0) {
+    decoder_->finish();
+    return;
+  }
+  decoder_->push(std::span(piece_).first(*count));
+  offset_ += *count;
+}
+
+/// The frames of a live stream that is opened again follow those that came before.
+void StreamLoader::begin_live_anew() {
+  {
+    const std::lock_guard lock(mutex_);
+    began_anew_ = true;
+  }
+  base_ = next_frame_;
+  decoder_.reset();
+  go_to(base_);
+}
+
+void StreamLoader::begin_mesh() {
+  const std::lock_guard lock(mutex_);
+  if (state_.mesh && *state_.mesh == decoder_->mesh()) return;
+  state_.mesh = std::make_shared<const Mesh>(decoder_->mesh());
+  fit_ring(state_.mesh->vertex_count);
+}
+
+/// As many frames as fit the bytes allowed: positions, normals and values of each.
+void StreamLoader::fit_ring(std::size_t vertices) {
+  const std::uint64_t frame_bytes = 7 * sizeof(float) * std::max<std::uint64_t>(vertices, 1);
+  const std::uint64_t fitting = std::max<std::uint64_t>(options_.ring_bytes / frame_bytes, 2);
+  ring_.set_capacity(static_cast<std::size_t>(
+      std::min<std::uint64_t>(std::max<std::size_t>(options_.ring_frames, 2), fitting)));
+  pool_.drop_free();
+  pool_.set_limit(ring_.capacity() + kFramesOutside);
+}
+
+void StreamLoader::begin_gop() {
+  auto gop = std::make_shared<PlayerGop>();
+  gop->info = decoder_->gop();
+  gop->info.first_frame += base_;
+  gop->flags.resize(decoder_->mesh().vertex_count);
+  decoder_->copy_flags(gop->flags);
+  used_decorator_.reset();
+  const std::lock_guard lock(mutex_);
+  facts_.note_gop({gop->info.first_frame, gop->info.frame_count, decoder_->chunk().offset, gop->info.bytes});
+  gop_ = std::move(gop);
+}
+
+void StreamLoader::take_frame(double decode_ms) {
+  const std::uint64_t number = base_ + decoder_->frame_number();
+  std::optional<std::uint64_t> last;
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_) return;
+    if (loop_) last = loop_->last;
+  }
+  next_frame_ = number + 1;
+  if (!last || number <= *last) {
+    std::shared_ptr<PlayerFrame> frame = pool_.take();
+    frame->number = number;
+    fill_frame(*frame, decode_ms);
+    push_frame(std::move(frame));
+  }
+  if (last && number >= *last && pushed_in_round_) begin_round(*last + 1);
+}
+
+void StreamLoader::fill_frame(PlayerFrame& frame, double decode_ms) {
+  const Clock::time_point start = Clock::now();
+  std::shared_ptr<FrameDecorator> decorator;
+  {
+    const std::lock_guard lock(mutex_);
+    frame.mesh = state_.mesh;
+    decorator = decorator_;
+  }
+  const std::size_t count = 3 * std::size_t{frame.mesh->vertex_count};
+  frame.gop = gop_;
+  frame.positions.resize(count);
+  decoder_->copy_positions(frame.positions.data());
+  frame.decode_ms = decode_ms + milliseconds_since(start);
+  const Clock::time_point decoded = Clock::now();
+  frame.normals.resize(count);
+  vertex_normals(frame.mesh->faces, frame.positions, frame.normals);
+  frame.packet_bytes = decoder_->frame_bytes();
+  frame.bits = options_.measure_bits ? decoder_->frame_bits() : std::array<double, 3>{};
+  frame.is_keyframe = frame.number == gop_->info.first_frame;
+  frame.values.clear();
+  if (decorator) {
+    if (used_decorator_ != decorator) decorator->on_gop(*frame.mesh, *gop_);
+    decorator->on_frame(frame);
+  }
+  used_decorator_ = std::move(decorator);
+  frame.prepare_ms = milliseconds_since(decoded);
+}
+
+void StreamLoader::push_frame(std::shared_ptr<PlayerFrame> frame) {
+  const std::lock_guard lock(mutex_);
+  constexpr double kNewShare = 0.05;
+  const double decode_ms = frame->decode_ms;
+  ++state_.frames_decoded;
+  state_.mean_decode_ms += (state_.frames_decoded == 1 ? 1 : kNewShare) * (decode_ms - state_.mean_decode_ms);
+  state_.max_decode_ms = std::max(state_.max_decode_ms, decode_ms);
+  state_.frame_slots = pool_.size();
+  facts_.note_frame(frame->number, frame->packet_bytes);
+  if (request_) return;
+  if (!opened_) {
+    opened_ = true;
+    state_.state = LoaderSnapshot::State::kReady;
+  }
+  ring_.push(std::move(frame));
+  openings_in_vain_ = 0;
+  pushed_in_round_ = true;
+  if (!wants_index_) {
+    wants_index_ = true;
+    index_.notify_all();
+  }
+}
+
+void StreamLoader::note_damage() {
+  const Damage& damage = decoder_->damage();
+  const std::uint64_t first = base_ + damage.first_frame;
+  const std::lock_guard lock(mutex_);
+  facts_.note_damage(damage, first);
+  if (first < next_frame_ && damage.error.code == ErrorCode::kDigestMismatch) return;
+  next_frame_ = std::max(next_frame_, first + damage.frame_count);
+  if (!request_) ring_.pass_over(first, damage.frame_count);
+}
+
+/// The round that ends before frame `end` is decoded: the next one follows at once.
+void StreamLoader::begin_round(std::uint64_t end) {
+  std::uint64_t first = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (request_ || !loop_) return;
+    first = loop_->first;
+    ring_.close(end, first);
+    active_ = true;
+    state_.state = LoaderSnapshot::State::kReady;
+    pushed_in_round_ = false;
+  }
+  go_to(first);
+}
+
+void StreamLoader::end_stream() {
+  {
+    const std::lock_guard lock(mutex_);
+    facts_.note_end(next_frame_);
+    if (request_) return;
+    const bool again = loop_ && pushed_in_round_ && !began_anew_ && input_->reaches(0);
+    if (!again) {
+      ring_.close(next_frame_, next_frame_);
+      active_ = false;
+      state_.state = LoaderSnapshot::State::kEnded;
+      return;
+    }
+  }
+  begin_round(next_frame_);
+}
+
+void StreamLoader::fail(const Error& error) {
+  failed_ = true;
+  const std::lock_guard lock(mutex_);
+  if (request_) return;
+  ring_.close(next_frame_, next_frame_);
+  active_ = false;
+  state_.state = LoaderSnapshot::State::kFailed;
+  const bool names_input = error.message.starts_with(input_->name());
+  state_.message = names_input ? error.message : input_->name() + ": " + error.describe();
+}
+
+}  // namespace tvg::cli
