@@ -82,6 +82,24 @@ double parse_share(const std::string& text) {
   return *value / 100;
 }
 
+std::optional<std::pair<int, int>> parse_count_pair(std::string_view text, int most) {
+  const std::size_t at = text.find('x');
+  if (at == std::string_view::npos) return std::nullopt;
+  const auto number = [most](std::string_view part) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    const bool whole = error == std::errc() && end == part.data() + part.size();
+    return whole && value >= 1 && value <= most ? value : 0;
+  };
+  const std::pair pair(number(text.substr(0, at)), number(text.substr(at + 1)));
+  if (pair.first == 0 || pair.second == 0) return std::nullopt;
+  return pair;
+}
+
+void fail_option(const std::string& option, const std::string& text, const std::string& right) {
+  throw ToolError(ExitStatus::kUsage, fmt::format("{} {}: {}", option, text, right));
+}
+
 std::string readable_bytes(std::uint64_t bytes) {
   constexpr std::array<std::string_view, 4> kUnits = {"kB", "MB", "GB", "TB"};
   if (bytes < 1000) return fmt::format("{} B", bytes);

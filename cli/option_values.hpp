@@ -2,7 +2,10 @@
 #include "encoder/importers/frame_range.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 // Values of options as users type them. Every function throws ToolError (kUsage) that shows what would be
 // right.
@@ -27,6 +30,12 @@ StepPair parse_step(const std::string& text);
 
 /// "35%": 0.35.
 double parse_share(const std::string& text);
+
+/// "4x3": two counts from 1 to `most`; nothing where the text is none.
+std::optional<std::pair<int, int>> parse_count_pair(std::string_view text, int most);
+
+/// Throws ToolError (kUsage): "OPTION TEXT: what would be right".
+[[noreturn]] void fail_option(const std::string& option, const std::string& text, const std::string& right);
 
 /// Bytes for people: "1.43 MB".
 std::string readable_bytes(std::uint64_t bytes);

@@ -7,23 +7,6 @@
 
 namespace tvg::cli {
 
-namespace {
-
-void add_look_options(CLI::App& command, RenderArguments& arguments) {
-  command.add_option("--size", arguments.size, "width and height of a picture in pixels: 1280x720")
-      ->capture_default_str();
-  command.add_option("--camera", arguments.camera,
-                     "front, back, left, right, top, bottom, iso, or azimuth,elevation[,zoom] in degrees "
-                     "(default 30,15)");
-  command.add_option("--shading", arguments.shading, "smooth or flat")->capture_default_str();
-  command.add_flag("--wireframe", arguments.wireframe, "draw edges over the surface");
-  command.add_flag("--grid", arguments.grid, "draw the ground");
-  command.add_option("--background", arguments.background, "light (default), dark, white or #rrggbb");
-  command.add_flag("--no-labels", arguments.no_labels, "draw no text and no legend");
-}
-
-}  // namespace
-
 void add_render_command(CLI::App& tool) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App& command = *tool.add_subcommand("render", "Draw frames to pictures or a clip; needs no display");
@@ -38,16 +21,10 @@ void add_render_command(CLI::App& tool) {
       ->required();
   command.add_option("--frames", arguments->frames, "draw frames A-B, or A, only; counted from 0");
   command.add_option("--sheet", arguments->sheet, "columns and rows of a contact sheet: 4x3");
-  command
-      .add_option("--overlay", arguments->overlay,
-                  "colour by importance (flags of a .tvg), cost (the measure over each GOP) or error "
-                  "(distance to --ref)")
-      ->capture_default_str();
   command.add_option("--scale", arguments->scale, "value of the last colour of --overlay cost or error");
-  command.add_option("--ref", arguments->reference,
-                     "the reference: a .tvg, a mesh file and its cache, or a sequence of mesh files");
   command.add_flag("--side-by-side", arguments->side_by_side, "draw the reference at the left");
   add_look_options(command, *arguments);
+  command.add_flag("--no-labels", arguments->no_labels, "draw no text and no legend");
   command.add_option("--fps", arguments->fps, "frames per second of a clip: 30, 30000/1001");
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");

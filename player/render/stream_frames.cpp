@@ -77,7 +77,7 @@ class StreamFrames final : public ShownFrames {
         ++meshes;
       } else if (frame + entry.frame_count > number_) {
         if (frame > 0)
-          reader_->jump(meshes > 1 ? mesh->offset : entry.offset, meshes > 1 ? mesh_frame : frame);
+          reader_->seek(frame);
         return;
       }
       frame += entry.frame_count;

@@ -68,6 +68,16 @@ void draw_swatch(ImDrawList& list, float x, float y, float size, const Colour& c
 
 }  // namespace
 
+void load_font(float size) {
+  ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+  std::error_code none;
+  if (std::filesystem::is_regular_file(kFont, none)) {
+    fonts.AddFontFromFileTTF(kFont, size);
+  } else {
+    fonts.AddFontDefault();
+  }
+}
+
 float text_size(int picture_height) {
   return std::round(std::clamp(static_cast<float>(picture_height) / 42, 11.0F, 40.0F));
 }
@@ -105,12 +115,7 @@ TextLayer::TextLayer(float largest_size) : context_(ImGui::CreateContext()) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  std::error_code none;
-  if (std::filesystem::is_regular_file(kFont, none)) {
-    io.Fonts->AddFontFromFileTTF(kFont, largest_size);
-  } else {
-    io.Fonts->AddFontDefault();
-  }
+  load_font(largest_size);
   if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
     ImGui::DestroyContext(context_);
     throw ToolError(ExitStatus::kOther, "cannot draw text: OpenGL's functions are not found (libGL.so.1)");

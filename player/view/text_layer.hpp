@@ -26,6 +26,9 @@ struct TextPlace {
   float size = 16;
 };
 
+/// Gives the present ImGui its font, whose letters look best at `size` pixels.
+void load_font(float size);
+
 /// Height of letters that suit a picture of this many pixels in height.
 float text_size(int picture_height);
 

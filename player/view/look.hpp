@@ -1,0 +1,48 @@
+#pragma once
+#include "player/view/camera.hpp"
+#include "player/view/mesh_renderer.hpp"
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+// How things are to look, as the commands that draw have it in common.
+namespace tvg::cli {
+
+/// What colours the mesh.
+enum class Overlay { kNone, kImportance, kCost, kError };
+
+/// The name by which users know an overlay: "none", "importance", ...
+const char* overlay_name(Overlay overlay);
+
+/// The options as they are typed.
+struct LookArguments {
+  std::string size = "1280x720";
+  std::string camera;
+  std::string overlay = "none";
+  std::vector<std::string> reference;
+  std::string shading = "smooth";
+  std::string background;
+  bool wireframe = false;
+  bool grid = false;
+};
+
+/// What they mean.
+struct Look {
+  int width = 1280;  ///< pixels
+  int height = 720;
+  ViewAngles angles;
+  Overlay overlay = Overlay::kNone;
+  std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none
+  Style style;
+};
+
+void add_look_options(CLI::App& command, LookArguments& arguments);
+
+/// Throws ToolError (kUsage) that shows what would be right.
+Look parse_look(const LookArguments& arguments);
+
+}  // namespace tvg::cli
