@@ -50,14 +50,18 @@ void stream_rows(const PlayerSnapshot& player) {
                                                 : fmt::format("{} so far", stream.known_frames);
   row("frames", fmt::format("{} at {:g} per second", frames, player.rate));
   row("rate", bit_rate(player.bits_per_second));
-  const std::string whole = stream.stream_bytes ? " of " + readable_bytes(*stream.stream_bytes) : "";
-  row("received", readable_bytes(stream.input.bytes_received) + whole);
+  if (stream.input.bytes_received > 0) {
+    const std::string whole = stream.stream_bytes ? " of " + readable_bytes(*stream.stream_bytes) : "";
+    row("received", readable_bytes(stream.input.bytes_received) + whole);
+  } else if (stream.stream_bytes) {
+    row("size", readable_bytes(*stream.stream_bytes));
+  }
 }
 
 void playing_rows(const PlayerSnapshot& player, const InterfaceFacts& facts) {
   const LoaderSnapshot& stream = player.stream;
   row("decoding", fmt::format("{:.1f} ms, at most {:.1f}", stream.mean_decode_ms, stream.max_decode_ms));
-  row("drawing", fmt::format("{:.1f} ms, {:.0f} pictures/s", facts.draw_ms, facts.shown_per_second));
+  row("drawing", fmt::format("{:.1f} ms, {:.0f} frames/s", facts.draw_ms, facts.shown_per_second));
   row("ahead", fmt::format("{} of {} frames", stream.frames_ahead, stream.ring_capacity));
   row("dropped", fmt::format("{} frames, {} stalls", player.dropped, player.stalls));
   if (!stream.damage.empty()) row("damage", fmt::format("{} places", stream.damage.size()));

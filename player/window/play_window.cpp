@@ -186,8 +186,9 @@ class PlayWindow {
     Bounds bounds;
     bounds.extend(frame_->positions);
     renderer_.set_scene(bounds, up);
-    bounds.pad(0.08);  // frames to come move about
-    camera_.fit(bounds, up);
+    bounds.pad(0.06);  // frames to come move about
+    const double aspect = static_cast<double>(window_.width()) / std::max(1, window_.height());
+    camera_.fit_closely(bounds, up, aspect);
   }
 
   void draw(double now) {
