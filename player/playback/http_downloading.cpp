@@ -230,7 +230,8 @@ void HttpInput::retry(const std::string& reason) {
     return;
   }
   reason_ = fmt::format("{}: {}; trying again", name_, reason);
-  retry_at_ = Clock::now() + std::min(kLongestDelay, options_.first_delay * (1 << std::min(attempts_ - 1, 16)));
+  retry_at_ =
+      Clock::now() + std::min(kLongestDelay, options_.first_delay * (1 << std::min(attempts_ - 1, 16)));
 }
 
 void HttpInput::give_up(const std::string& reason, bool may_try_again) {

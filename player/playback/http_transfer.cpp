@@ -33,7 +33,8 @@ void HttpHead::read_line(std::string_view line) {
   if (line.starts_with("HTTP/")) {
     *this = HttpHead();
     const std::size_t space = line.find(' ');
-    if (space != std::string_view::npos) status = static_cast<long>(number(line.substr(space + 1, 3)).value_or(0));
+    if (space != std::string_view::npos)
+      status = static_cast<long>(number(line.substr(space + 1, 3)).value_or(0));
     return;
   }
   const std::size_t colon = line.find(':');

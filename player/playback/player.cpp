@@ -156,8 +156,8 @@ PlayerSnapshot Player::snapshot() const {
   snapshot.stalls = clock_.stalls();
   snapshot.stalled_seconds = clock_.stalled_seconds();
   if (frame_ && frame_->gop->info.frame_count > 0) {
-    snapshot.bits_per_second = 8 * static_cast<double>(frame_->gop->info.bytes) /
-                               frame_->gop->info.frame_count * clock_.rate();
+    snapshot.bits_per_second =
+        8 * static_cast<double>(frame_->gop->info.bytes) / frame_->gop->info.frame_count * clock_.rate();
   }
   using Status = PlayerSnapshot::Status;
   const bool at_end = frame_count_ && wanted_ + 1 >= *frame_count_;

@@ -84,8 +84,8 @@ class Player {
   std::optional<LoopRange> range_;
   std::optional<std::uint64_t> frame_count_;
   bool has_rate_ = false;
-  bool primed_ = false;  ///< enough was there to begin, since the last seek
-  bool missing_ = true;  ///< the frame wanted is not there
+  bool primed_ = false;                  ///< enough was there to begin, since the last seek
+  bool missing_ = true;                  ///< the frame wanted is not there
   std::optional<std::uint64_t> sought_;  ///< by update() itself: once for each frame
   std::shared_ptr<const PlayerFrame> frame_;
   std::uint64_t wanted_ = 0;

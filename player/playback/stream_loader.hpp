@@ -145,7 +145,7 @@ class StreamLoader {
   std::optional<std::vector<IndexEntry>> new_index_;  ///< for the decoder
   bool wants_index_ = false;
   bool index_done_ = false;
-  bool active_ = true;   ///< there is more to decode
+  bool active_ = true;       ///< there is more to decode
   bool began_anew_ = false;  ///< a live stream was opened again
   bool opened_ = false;      ///< a frame has been decoded
   bool stopped_ = false;
@@ -161,7 +161,7 @@ class StreamLoader {
   std::optional<std::uint64_t> target_;  ///< frame to seek as soon as the head is in
   bool has_head_ = false;
   bool failed_ = false;
-  int openings_in_vain_ = 0;  ///< of a live stream, since it brought a frame
+  int openings_in_vain_ = 0;      ///< of a live stream, since it brought a frame
   bool pushed_in_round_ = false;  ///< a loop with no frame at all must end
   std::shared_ptr<const PlayerGop> gop_;
   std::shared_ptr<FrameDecorator> used_decorator_;

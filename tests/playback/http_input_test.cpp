@@ -104,8 +104,7 @@ TEST(HttpInput, ASeekAsksForTheBytesOfItsGopOnly) {
   const std::vector<std::string> requests = server.requests();
   EXPECT_THAT(requests, Contains("bytes=" + std::to_string((*gops)[10].offset) + "-"));
   const std::uint64_t size = long_stream().size();
-  EXPECT_THAT(requests,
-              Contains("bytes=" + std::to_string(size - 65536) + "-" + std::to_string(size - 1)));
+  EXPECT_THAT(requests, Contains("bytes=" + std::to_string(size - 65536) + "-" + std::to_string(size - 1)));
   loader.seek(1);
   expect_frame(loader, long_frames().frames[1]);
   EXPECT_EQ(loader.snapshot().damage.size(), 0u);
@@ -280,7 +279,8 @@ TEST(HttpInput, EndsPromptlyWhileItWaitsForTheNetwork) {
   loader->seek(59);
   const auto start = std::chrono::steady_clock::now();
   loader.reset();
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10)) << "not the 30 s of the stall";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10))
+      << "not the 30 s of the stall";
 }
 
 TEST(HttpInput, FetchesNoFurtherAheadThanAllowed) {

@@ -16,19 +16,21 @@ class StreamServer {
  public:
   struct Behaviour {
     bool ranges = true;
-    bool live = false;            ///< no length
+    bool live = false;  ///< no length
     std::string etag = "\"one\"";
-    std::string later_etag;       ///< from the second request on
-    int refusals = 0;             ///< requests answered with `refusal` first
+    std::string later_etag;  ///< from the second request on
+    int refusals = 0;        ///< requests answered with `refusal` first
     int refusal = 503;
-    std::size_t break_after = 0;  ///< bytes of each response, then the connection breaks
-    int breaks = 0;               ///< responses that break
-    std::size_t extra_length = 0; ///< claimed beyond the stream's end
-    std::size_t hang_after = SIZE_MAX;  ///< bytes of a response to a request without a range; then nothing comes
-    std::chrono::milliseconds pause{0}; ///< between pieces of 4 KiB
+    std::size_t break_after = 0;   ///< bytes of each response, then the connection breaks
+    int breaks = 0;                ///< responses that break
+    std::size_t extra_length = 0;  ///< claimed beyond the stream's end
+    std::size_t hang_after =
+        SIZE_MAX;  ///< bytes of a response to a request without a range; then nothing comes
+    std::chrono::milliseconds pause{0};  ///< between pieces of 4 KiB
   };
 
-  StreamServer(Stream stream, Behaviour behaviour) : stream_(std::move(stream)), behaviour_(std::move(behaviour)) {
+  StreamServer(Stream stream, Behaviour behaviour)
+      : stream_(std::move(stream)), behaviour_(std::move(behaviour)) {
     ::setenv("no_proxy", "127.0.0.1", 1);
     server_.Get("/clip.tvg", [this](const httplib::Request& request, httplib::Response& response) {
       answer(request, response);
