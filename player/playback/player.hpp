@@ -72,7 +72,8 @@ class Player {
   }
 
  private:
-  void follow_stream(double now);
+  void follow_stream();
+  void adopt_rate(double now);
   bool ready_to_go(const StreamLoader::Supply& supply, double now) const;
   void go_to(std::uint64_t frame, std::uint64_t lead_in);
   void tell_loop();
@@ -83,7 +84,6 @@ class Player {
   std::optional<double> forced_rate_;
   std::optional<LoopRange> range_;
   std::optional<std::uint64_t> frame_count_;
-  bool has_rate_ = false;
   bool primed_ = false;                  ///< enough was there to begin, since the last seek
   bool missing_ = true;                  ///< the frame wanted is not there
   std::optional<std::uint64_t> sought_;  ///< by update() itself: once for each frame
