@@ -87,9 +87,10 @@ void measure_playback(const std::string& location, double seconds) {
     wait_for_next_picture();
   }
   const PlayerSnapshot snapshot = player.snapshot();
-  fmt::print("played {:.1f} s at {:.3g} fps, {} pictures: {} stalls ({:.2f} s), {} frames dropped\n",
-             now() - start, snapshot.rate, pictures, snapshot.stalls, snapshot.stalled_seconds,
-             snapshot.dropped);
+  fmt::print(
+      "played {:.1f} s at {:.3g} fps, {} pictures: {} stalls, {} frames late (waited {:.2f} s), {} dropped\n",
+      now() - start, snapshot.rate, pictures, snapshot.stalls, snapshot.late, snapshot.waited_seconds,
+      snapshot.dropped);
   fmt::print("decoding                {:8.2f} ms a frame, {:.2f} ms at most; {} frame slots\n",
              snapshot.stream.mean_decode_ms, snapshot.stream.max_decode_ms, snapshot.stream.frame_slots);
   const std::uint64_t bytes = snapshot.stream.stream_bytes.value_or(0);

@@ -137,9 +137,10 @@ void PlaybackClock::wait(double now) {
 void PlaybackClock::resume(double now) {
   if (!waiting_) return;
   const double time = waited(now);
-  if (playing_ && is_stall_ && time >= kNoticed) {
-    ++stalls_;
-    stalled_seconds_ += time;
+  if (playing_ && is_stall_) {
+    ++late_;
+    stalls_ += time >= kNoticed ? 1 : 0;
+    waited_seconds_ += time;
   }
   waiting_ = false;
   anchor(static_cast<double>(wanted_), now);

@@ -157,7 +157,8 @@ PlayerSnapshot Player::snapshot() const {
   snapshot.speed = clock_.speed();
   snapshot.dropped = clock_.dropped();
   snapshot.stalls = clock_.stalls();
-  snapshot.stalled_seconds = clock_.stalled_seconds();
+  snapshot.late = clock_.late();
+  snapshot.waited_seconds = clock_.waited_seconds();
   if (frame_ && frame_->gop->info.frame_count > 0) {
     snapshot.bits_per_second =
         8 * static_cast<double>(frame_->gop->info.bytes) / frame_->gop->info.frame_count * clock_.rate();

@@ -36,8 +36,9 @@ struct PlayerSnapshot {
   double rate = PlaybackClock::kDefaultRate;
   double speed = 1;
   std::uint64_t dropped = 0;
+  std::uint64_t late = 0;  ///< frames that were not there in time; see PlaybackClock
   std::uint64_t stalls = 0;
-  double stalled_seconds = 0;
+  double waited_seconds = 0;
   double bits_per_second = 0;  ///< of the stream around the frame shown, at its rate; 0 where not known
 };
 
