@@ -66,7 +66,11 @@ std::size_t FrameRing::find(std::uint64_t number) const {
 
 std::shared_ptr<const PlayerFrame> FrameRing::show(std::uint64_t number) {
   const std::size_t found = find(number);
-  if (found == entries_.size()) return nullptr;
+  if (found == entries_.size()) {
+    // Too late for those in between: what follows them needs their room.
+    if (continues_ && !entries_.empty() && number >= next_) shown_ = entries_.size() - 1;
+    return nullptr;
+  }
   shown_ = found;
   return entries_[found].frame;
 }

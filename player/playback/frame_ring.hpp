@@ -43,7 +43,7 @@ class FrameRing {
   void close(std::uint64_t end, std::uint64_t next);
 
   /// The frame for `number`, which becomes the one shown: in a short loop, where the ring holds it more than
-  /// once, the nearest. Null where there is none.
+  /// once, the nearest. Null where there is none; frames that come before it then count as shown.
   std::shared_ptr<const PlayerFrame> show(std::uint64_t number);
   /// Whether show() would find one.
   bool contains(std::uint64_t number) const;

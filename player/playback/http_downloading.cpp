@@ -88,7 +88,6 @@ bool HttpInput::plan() {
 bool HttpInput::on_the_way(std::uint64_t hole) const {
   constexpr double kPatience = 0.2;  // seconds
   constexpr double kLeast = 16384, kMost = 131072;
-  if (!head_seen_) return requested_ <= hole && hole - requested_ <= static_cast<std::uint64_t>(kMost);
   if (arriving_ > hole) return false;
   if (ranges_ == Ranges::kNo || live_) return true;
   const std::chrono::duration<double> time = Clock::now() - begun_;

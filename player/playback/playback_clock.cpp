@@ -93,12 +93,14 @@ void PlaybackClock::step(std::int64_t count, double now) {
 }
 
 std::uint64_t PlaybackClock::frame(double now) {
+  // Rounding must not give a picture at the very time of a frame the one before.
+  constexpr double kRounding = 1e-6;
   double at = position(now);
   const auto first = static_cast<double>(first_);
-  if (last_ && at >= static_cast<double>(*last_) + 1) {
+  if (last_ && at + kRounding >= static_cast<double>(*last_) + 1) {
     const auto length = static_cast<double>(*last_ - first_ + 1);
     if (looping_) {
-      at = first + std::fmod(at - first, length);
+      at = first + std::max(0.0, std::fmod(at + kRounding - first, length) - kRounding);
       anchor(at, now);
     } else {
       at = static_cast<double>(*last_);
@@ -110,7 +112,8 @@ std::uint64_t PlaybackClock::frame(double now) {
     at = first;
     anchor(at, now);
   }
-  wanted_ = static_cast<std::uint64_t>(at);
+  wanted_ = static_cast<std::uint64_t>(at + kRounding);
+  if (last_) wanted_ = std::min(wanted_, *last_);
   return wanted_;
 }
 
@@ -134,9 +137,10 @@ void PlaybackClock::wait(double now) {
 void PlaybackClock::resume(double now) {
   if (!waiting_) return;
   const double time = waited(now);
-  if (playing_ && is_stall_ && time >= kNoticed) {
-    ++stalls_;
-    stalled_seconds_ += time;
+  if (playing_ && is_stall_) {
+    ++late_;
+    stalls_ += time >= kNoticed ? 1 : 0;
+    waited_seconds_ += time;
   }
   waiting_ = false;
   anchor(static_cast<double>(wanted_), now);

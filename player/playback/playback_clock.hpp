@@ -54,9 +54,12 @@ class PlaybackClock {
   void resume(double now);
 
   std::uint64_t dropped() const { return dropped_; }
-  /// Noticed waits while playing, other than those for the first frame and after seek().
+  /// Frames that were not there in time while playing, other than the first one and after seek().
+  std::uint64_t late() const { return late_; }
+  /// Those among them that were waited for noticeably.
   std::uint64_t stalls() const { return stalls_; }
-  double stalled_seconds() const { return stalled_seconds_; }
+  /// By how much playing took longer for all of them.
+  double waited_seconds() const { return waited_seconds_; }
 
  private:
   double position(double now) const;
@@ -79,7 +82,8 @@ class PlaybackClock {
   double waiting_since_ = 0;
   std::uint64_t dropped_ = 0;
   std::uint64_t stalls_ = 0;
-  double stalled_seconds_ = 0;
+  std::uint64_t late_ = 0;
+  double waited_seconds_ = 0;
 };
 
 }  // namespace tvg::cli

@@ -25,12 +25,13 @@ Player::Player(std::unique_ptr<StreamInput> input, const PlayerOptions& options)
 }
 
 std::shared_ptr<const PlayerFrame> Player::update(double now) {
-  follow_stream(now);
+  follow_stream();
   wanted_ = clock_.frame(now);
   std::shared_ptr<const PlayerFrame> frame = loader_.show(wanted_);
   missing_ = frame == nullptr;
   const StreamLoader::Supply supply = loader_.supply();
   if (frame) {
+    adopt_rate(now);
     frame_ = std::move(frame);
     sought_.reset();
     if (!primed_ || clock_.waiting()) {
@@ -55,19 +56,21 @@ std::shared_ptr<const PlayerFrame> Player::update(double now) {
 }
 
 /// Takes over what has become known of the stream.
-void Player::follow_stream(double now) {
-  if (!has_rate_ && frame_) {
-    has_rate_ = true;
-    const Metadata metadata = loader_.snapshot().metadata;
-    const auto fps = metadata.find("fps");
-    const std::optional<double> rate = fps == metadata.end() ? std::nullopt : parse_frame_rate(fps->second);
-    clock_.set_rate(forced_rate_.value_or(rate.value_or(PlaybackClock::kDefaultRate)), now);
-  }
+void Player::follow_stream() {
   const StreamLoader::Supply supply = loader_.supply();
   if (!supply.can_go_back) clock_.set_looping(false);
   if (supply.frame_count == frame_count_) return;
   frame_count_ = supply.frame_count;
   set_clock_range();
+}
+
+/// With the first frame the metadata are there.
+void Player::adopt_rate(double now) {
+  if (frame_) return;
+  const Metadata metadata = loader_.snapshot().metadata;
+  const auto fps = metadata.find("fps");
+  const std::optional<double> rate = fps == metadata.end() ? std::nullopt : parse_frame_rate(fps->second);
+  clock_.set_rate(forced_rate_.value_or(rate.value_or(PlaybackClock::kDefaultRate)), now);
 }
 
 bool Player::ready_to_go(const StreamLoader::Supply& supply, double now) const {
@@ -154,7 +157,8 @@ PlayerSnapshot Player::snapshot() const {
   snapshot.speed = clock_.speed();
   snapshot.dropped = clock_.dropped();
   snapshot.stalls = clock_.stalls();
-  snapshot.stalled_seconds = clock_.stalled_seconds();
+  snapshot.late = clock_.late();
+  snapshot.waited_seconds = clock_.waited_seconds();
   if (frame_ && frame_->gop->info.frame_count > 0) {
     snapshot.bits_per_second =
         8 * static_cast<double>(frame_->gop->info.bytes) / frame_->gop->info.frame_count * clock_.rate();

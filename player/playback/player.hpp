@@ -36,8 +36,9 @@ struct PlayerSnapshot {
   double rate = PlaybackClock::kDefaultRate;
   double speed = 1;
   std::uint64_t dropped = 0;
+  std::uint64_t late = 0;  ///< frames that were not there in time; see PlaybackClock
   std::uint64_t stalls = 0;
-  double stalled_seconds = 0;
+  double waited_seconds = 0;
   double bits_per_second = 0;  ///< of the stream around the frame shown, at its rate; 0 where not known
 };
 
@@ -72,7 +73,8 @@ class Player {
   }
 
  private:
-  void follow_stream(double now);
+  void follow_stream();
+  void adopt_rate(double now);
   bool ready_to_go(const StreamLoader::Supply& supply, double now) const;
   void go_to(std::uint64_t frame, std::uint64_t lead_in);
   void tell_loop();
@@ -83,7 +85,6 @@ class Player {
   std::optional<double> forced_rate_;
   std::optional<LoopRange> range_;
   std::optional<std::uint64_t> frame_count_;
-  bool has_rate_ = false;
   bool primed_ = false;                  ///< enough was there to begin, since the last seek
   bool missing_ = true;                  ///< the frame wanted is not there
   std::optional<std::uint64_t> sought_;  ///< by update() itself: once for each frame

@@ -34,9 +34,6 @@ void StreamLoader::run() {
         {
           const std::lock_guard lock(mutex_);
           request = *std::exchange(request_, std::nullopt);
-          active_ = true;
-          state_.state = opened_ ? LoaderSnapshot::State::kReady : LoaderSnapshot::State::kOpening;
-          state_.message.clear();
           input_->resume();
         }
         begin_request(request);
@@ -90,7 +87,9 @@ void StreamLoader::begin_request(const Request& request) {
     const std::optional<std::uint64_t> count = facts_.frame_count();
     if (count && *count > 0) start = std::min(start, *count - 1);
     if (const GopMark* gop = facts_.gop_of(start)) {
-      start -= std::min(request.lead_in, start - gop->first_frame);
+      // All of them and the frame itself must fit the ring.
+      const std::uint64_t lead_in = std::min<std::uint64_t>(request.lead_in, ring_.capacity() - 1);
+      start -= std::min(lead_in, start - gop->first_frame);
     }
     ring_.reset(start);
     pushed_in_round_ = false;

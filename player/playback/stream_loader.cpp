@@ -42,14 +42,22 @@ std::shared_ptr<const PlayerFrame> StreamLoader::show(std::uint64_t number) {
 bool StreamLoader::heads_for(std::uint64_t number) const {
   const std::lock_guard lock(mutex_);
   if (request_) return number >= request_->frame && number - request_->frame <= ring_.capacity();
-  return active_ && number >= ring_.next() && number - ring_.next() <= ring_.capacity();
+  return active_ && ring_.has_room() && number >= ring_.next() && number - ring_.next() <= ring_.capacity();
 }
 
 void StreamLoader::seek(std::uint64_t number, std::uint64_t lead_in) {
   const std::lock_guard lock(mutex_);
   if (!request_ && ring_.contains(number)) return;
-  ring_.reset(number);
-  request_ = Request{number, lead_in};
+  request({number, lead_in});
+}
+
+/// Hands the decoding thread a new place to go on from. Called with the lock held.
+void StreamLoader::request(const Request& request) {
+  ring_.reset(request.frame);
+  request_ = request;
+  active_ = true;
+  state_.state = opened_ ? LoaderSnapshot::State::kReady : LoaderSnapshot::State::kOpening;
+  state_.message.clear();
   input_->interrupt();
   work_.notify_all();
 }
@@ -63,10 +71,7 @@ void StreamLoader::set_loop(std::optional<LoopRange> loop) {
 void StreamLoader::set_decorator(std::shared_ptr<FrameDecorator> decorator, std::uint64_t number) {
   const std::lock_guard lock(mutex_);
   decorator_ = std::move(decorator);
-  ring_.reset(number);
-  request_ = Request{number, 0};
-  input_->interrupt();
-  work_.notify_all();
+  request({number, 0});
 }
 
 LoaderSnapshot StreamLoader::snapshot() const {

@@ -18,7 +18,7 @@
 namespace tvg::cli {
 
 struct LoaderOptions {
-  DecoderLimits limits;
+  DecoderLimits limits{};
   std::size_t ring_frames = 64;  ///< most frames held, at least 2
   std::uint64_t ring_bytes = std::uint64_t{512}
                              << 20;  ///< most bytes of frames held, but never below 2 frames
@@ -103,6 +103,8 @@ class StreamLoader {
     std::uint64_t frame = 0;
     std::uint64_t lead_in = 0;
   };
+
+  void request(const Request& request);
 
   // Decoding thread.
   void run();

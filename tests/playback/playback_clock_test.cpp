@@ -60,7 +60,7 @@ TEST(PlaybackClock, StandsWhileItWaitsAndGoesOnWithoutAJump) {
   EXPECT_EQ(show(clock, 30.05), 5u);
   EXPECT_EQ(show(clock, 30.15), 6u);
   EXPECT_EQ(clock.stalls(), 1u);
-  EXPECT_NEAR(clock.stalled_seconds(), 29.49, 1e-9);
+  EXPECT_NEAR(clock.waited_seconds(), 29.49, 1e-9);
   EXPECT_EQ(clock.dropped(), 0u);
 }
 
@@ -78,6 +78,8 @@ TEST(PlaybackClock, WaitsAfterASeekAndUnnoticedOnesAreNoStalls) {
   clock.wait(5.1);
   clock.resume(5.15);
   EXPECT_EQ(clock.stalls(), 0u);
+  EXPECT_EQ(clock.late(), 1u);
+  EXPECT_NEAR(clock.waited_seconds(), 0.05, 1e-9);
 }
 
 TEST(PlaybackClock, CountsFramesThatWerePassedOver) {
@@ -117,7 +119,8 @@ TEST(PlaybackClock, ReadsFrameRatesOfMetadata) {
   EXPECT_EQ(parse_frame_rate("30"), 30.0);
   EXPECT_EQ(parse_frame_rate("23.976"), 23.976);
   EXPECT_DOUBLE_EQ(*parse_frame_rate("30000/1001"), 30000.0 / 1001);
-  for (const char* text : {"", "0", "-5", "thirty", "30/0", "30/", "/2", "1e9", "nan", "inf", "30 fps", "30/1/1"}) {
+  for (const char* text :
+       {"", "0", "-5", "thirty", "30/0", "30/", "/2", "1e9", "nan", "inf", "30 fps", "30/1/1"}) {
     EXPECT_FALSE(parse_frame_rate(text)) << text;
   }
 }

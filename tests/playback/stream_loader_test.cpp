@@ -1,17 +1,280 @@
 #include "player/playback/stream_loader.hpp"
 
+#include "cli/tool_error.hpp"
 #include "playback_toolbox.hpp"
+#include "player/playback/file_input.hpp"
+#include "player/playback/pipe_input.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <iterator>
+#include <random>
 
 namespace tvg::test {
 namespace {
 
-TEST(StreamLoader, EveryFrameOfAFileIsThatOfAPlainDecoder) {
+using cli::LoaderSnapshot;
+using cli::StreamLoader;
+using testing::HasSubstr;
+
+/// Bytes that come through a pipe.
+class PipedStream {
+ public:
+  explicit PipedStream(Stream stream) : stream_(std::move(stream)) {
+    EXPECT_EQ(::pipe(ends_), 0);
+    writer_ = std::thread([this] {
+      for (std::size_t at = 0; at < stream_.size();) {
+        const ssize_t count = ::write(ends_[1], stream_.data() + at, stream_.size() - at);
+        if (count <= 0) break;
+        at += static_cast<std::size_t>(count);
+      }
+      ::close(ends_[1]);
+    });
+  }
+  ~PipedStream() { writer_.join(); }
+  PipedStream(const PipedStream&) = delete;
+  PipedStream& operator=(const PipedStream&) = delete;
+
+  std::unique_ptr<cli::StreamInput> input(std::uint64_t limit = cli::PipeInput::kDefaultLimit) {
+    return std::make_unique<cli::PipeInput>("a pipe", ends_[0], limit);
+  }
+
+ private:
+  Stream stream_;
+  int ends_[2] = {};
+  std::thread writer_;
+};
+
+/// The stream with bytes of one GOP's frames changed.
+Stream with_damage(Stream stream, std::size_t gop) {
+  const DecodedStream plain = decode_stream(stream);
+  std::size_t met = 0;
+  for (const IndexEntry& entry : plain.index) {
+    if (entry.kind != IndexEntry::Kind::kGop || met++ != gop) continue;
+    const std::size_t at = static_cast<std::size_t>(entry.offset) + 400;
+    for (std::size_t i = 0; i < 8; ++i) stream[at + i] ^= 0x5A;
+  }
+  return stream;
+}
+
+TEST(StreamLoader, EveryConformanceStreamGivesTheFramesOfAPlainDecoder) {
+  int streams = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(TVG_CONFORMANCE_STREAMS)) {
+    if (entry.path().extension() != ".tvg") continue;
+    SCOPED_TRACE(entry.path().filename());
+    std::ifstream file(entry.path(), std::ios::binary);
+    const Stream bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    StreamLoader loader(cli::open_stream_input(entry.path().string()));
+    for (const DecodedFrame& frame : decode_stream(bytes).frames) expect_frame(loader, frame);
+    ++streams;
+  }
+  EXPECT_GE(streams, 15);
+}
+
+TEST(StreamLoader, SaysWhatIsKnownOfAStream) {
+  const TemporaryFile file(encoded("toy", 5));
+  StreamLoader loader(cli::open_stream_input(file.path()));
+  await_frame(loader, 11);
+  ASSERT_TRUE(eventually([&] { return loader.snapshot().has_index; }));
+  const LoaderSnapshot snapshot = loader.snapshot();
+  EXPECT_EQ(snapshot.frame_count, 12u);
+  EXPECT_EQ(snapshot.metadata.at("fps"), "25");
+  ASSERT_EQ(snapshot.gops->size(), 3u);
+  EXPECT_EQ((*snapshot.gops)[2].first_frame, 10u);
+  EXPECT_EQ((*snapshot.gops)[2].frame_count, 2u);
+  EXPECT_EQ(snapshot.buffered, (std::vector<cli::FrameRun>{{0, 12}}));
+  EXPECT_EQ(snapshot.decoded, (std::vector<cli::FrameRun>{{0, 12}}));
+  EXPECT_EQ(loader.frame_bytes(3, 6).size(), 4u);
+  EXPECT_GT(loader.frame_bytes(3, 3).at(0).bytes, 0u);
+}
+
+TEST(StreamLoader, SeeksAnywhereGiveTheRightFrameWithAnIndexAndWithout) {
+  const Stream stream = encoded("cloth", 3);
+  const DecodedStream plain = decode_stream(stream);
+  const TemporaryFile file(stream);
+  PipedStream pipe(stream);
+  StreamLoader from_file(cli::open_stream_input(file.path()), {.ring_frames = 2});
+  StreamLoader from_pipe(pipe.input(), {.ring_frames = 2});
+  std::mt19937 random(7);
+  for (int i = 0; i < 60; ++i) {
+    const DecodedFrame& frame = plain.frames[random() % plain.frames.size()];
+    for (StreamLoader* loader : {&from_file, &from_pipe}) {
+      loader->seek(frame.number, i % 3);
+      ASSERT_NO_FATAL_FAILURE(expect_frame(*loader, frame));
+    }
+  }
+}
+
+TEST(StreamLoader, SeeksInQuickSuccessionEndAtTheLastOne) {
+  const Stream stream = encoded("toy", 4);
+  const DecodedStream plain = decode_stream(stream);
+  const TemporaryFile file(stream);
+  StreamLoader loader(cli::open_stream_input(file.path()), {.ring_frames = 2});
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 10; ++i) loader.seek(random() % 12);
+    const std::uint64_t last = random() % 12;
+    loader.seek(last);
+    EXPECT_TRUE(loader.heads_for(last) || loader.show(last));
+    ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[last]));
+  }
+}
+
+TEST(StreamLoader, ADamagedGopIsHeldAndMarked) {
+  const Stream stream = encoded("cloth", 3);
+  const Stream damaged = with_damage(stream, 1);
+  const DecodedStream plain = decode_stream(damaged);
+  ASSERT_FALSE(plain.damage.empty());
+  ASSERT_LT(plain.frames.size(), decode_stream(stream).frames.size());
+  const TemporaryFile file(damaged);
+  StreamLoader loader(cli::open_stream_input(file.path()));
+  std::size_t next = 0;
+  const std::uint64_t count = decode_stream(stream).frames.size();
+  for (std::uint64_t number = 0; number < count; ++number) {
+    if (next < plain.frames.size() && plain.frames[next].number == number) ++next;
+    const auto frame = await_frame(loader, number);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->number, plain.frames[next - 1].number) << "the last good one";
+    EXPECT_EQ(frame->positions, plain.frames[next - 1].positions);
+  }
+  const LoaderSnapshot snapshot = loader.snapshot();
+  ASSERT_EQ(snapshot.damage.size(), 1u);
+  EXPECT_EQ(snapshot.damage[0].frames.first, plain.damage[0].first_frame);
+  EXPECT_EQ(snapshot.damage[0].frames.count, plain.damage[0].frame_count);
+  loader.seek(plain.damage[0].first_frame);
+  EXPECT_TRUE(await_frame(loader, plain.damage[0].first_frame));
+}
+
+TEST(StreamLoader, MemoryIsBoundedByTheRing) {
+  const TemporaryFile file(encoded("toy", 5));
+  StreamLoader loader(cli::open_stream_input(file.path()), {.ring_frames = 4});
+  loader.set_loop(cli::LoopRange{});
+  for (int round = 0; round < 10; ++round) {
+    for (std::uint64_t f = 0; f < 12; ++f) ASSERT_TRUE(await_frame(loader, f));
+  }
+  EXPECT_GE(loader.snapshot().frames_decoded, 100u);
+  EXPECT_LE(loader.snapshot().frame_slots, 8u) << "4 in the ring and 4 outside";
+
+  StreamLoader tight(cli::open_stream_input(file.path()), {.ring_bytes = 1});
+  await_frame(tight, 0);
+  EXPECT_EQ(tight.snapshot().ring_capacity, 2u);
+}
+
+TEST(StreamLoader, ALoopGoesOnWithItsFirstFrame) {
   const Stream stream = encoded("toy", 5);
   const DecodedStream plain = decode_stream(stream);
   const TemporaryFile file(stream);
-  cli::StreamLoader loader(cli::open_stream_input(file.path()));
-  ASSERT_EQ(plain.frames.size(), 12u);
-  for (const DecodedFrame& frame : plain.frames) expect_frame(loader, frame);
+  StreamLoader loader(cli::open_stream_input(file.path()), {.ring_frames = 4});
+  loader.set_loop(cli::LoopRange{3, 8});
+  loader.seek(3);
+  for (int round = 0; round < 3; ++round) {
+    for (std::uint64_t f = 3; f <= 8; ++f) ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[f]));
+  }
+  loader.set_loop(std::nullopt);
+  loader.seek(9);
+  for (std::uint64_t f = 9; f < 12; ++f) ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[f]));
+  ASSERT_TRUE(eventually([&] { return loader.snapshot().state == LoaderSnapshot::State::kEnded; }));
+  loader.set_loop(cli::LoopRange{});
+  expect_frame(loader, plain.frames[0]);
+}
+
+TEST(StreamLoader, AStreamThatIsCutShowsWhatIsThereAndSaysWhy) {
+  Stream stream = encoded("toy", 5);
+  const DecodedStream plain = decode_stream(stream);
+  stream.resize(static_cast<std::size_t>(plain.index[2].offset) + 300);
+  const TemporaryFile file(stream);
+  StreamLoader loader(cli::open_stream_input(file.path()));
+  for (std::uint64_t f = 0; f < 5; ++f) expect_frame(loader, plain.frames[f]);
+  ASSERT_TRUE(eventually([&] { return loader.supply().failed; }));
+  EXPECT_THAT(loader.snapshot().message, HasSubstr(file.path()));
+  EXPECT_THAT(loader.snapshot().message, HasSubstr("ends before it is complete"));
+  EXPECT_TRUE(loader.show(2));
+  loader.seek(100);
+  ASSERT_TRUE(eventually([&] { return loader.supply().failed; }));
+  loader.seek(1);
+  expect_frame(loader, plain.frames[1]);
+}
+
+TEST(StreamLoader, WhatIsNoStreamFailsWithItsName) {
+  const TemporaryFile file(Stream(1000, 'x'));
+  StreamLoader loader(cli::open_stream_input(file.path()));
+  ASSERT_TRUE(eventually([&] { return loader.supply().failed; }));
+  EXPECT_THAT(loader.snapshot().message, HasSubstr(file.path()));
+  EXPECT_THAT(loader.snapshot().message, HasSubstr("not a TVG stream"));
+  EXPECT_THROW(cli::open_stream_input("/no/such/file.tvg"), cli::ToolError);
+  EXPECT_THROW(cli::open_stream_input("/"), cli::ToolError);
+}
+
+TEST(StreamLoader, APipeThatIsSilentDoesNotHoldUpTheEnd) {
+  int ends[2] = {};
+  ASSERT_EQ(::pipe(ends), 0);
+  {
+    StreamLoader loader(std::make_unique<cli::PipeInput>("a pipe", ends[0]));
+    EXPECT_EQ(loader.show(0), nullptr);
+    loader.seek(5);
+  }
+  ::close(ends[1]);
+}
+
+TEST(PipeInput, GoesBackAsFarAsItKeepsBytes) {
+  Stream bytes(300'000);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i / 1000);
+  PipedStream pipe(bytes);
+  const auto input = pipe.input(100'000);
+  std::vector<std::uint8_t> piece(1000);
+  for (std::size_t at = 0; at < bytes.size();) {
+    const Result<std::size_t> count = input->read(at, piece);
+    ASSERT_TRUE(count);
+    ASSERT_EQ(piece[0], bytes[at]);
+    at += *count;
+  }
+  ASSERT_TRUE(input->read(bytes.size() - 40'000, piece));
+  EXPECT_EQ(piece[0], bytes[bytes.size() - 40'000]);
+  const Result<std::size_t> gone = input->read(0, piece);
+  ASSERT_FALSE(gone);
+  EXPECT_THAT(gone.error().message, HasSubstr("a pipe: cannot go back to byte 0"));
+  EXPECT_FALSE(input->reaches(0));
+}
+
+/// Gives each vertex the number of its frame.
+class NumberDecorator final : public cli::FrameDecorator {
+ public:
+  explicit NumberDecorator(float sign) : sign_(sign) {}
+  void on_gop(const Mesh& mesh, const cli::PlayerGop&) override { vertices_ = mesh.vertex_count; }
+  void on_frame(cli::PlayerFrame& frame) override {
+    frame.values.assign(vertices_, sign_ * static_cast<float>(frame.number));
+  }
+
+ private:
+  float sign_;
+  std::size_t vertices_ = 0;
+};
+
+TEST(StreamLoader, ADecoratorFillsValuesOfEveryFrameFromTheOneShownOn) {
+  const TemporaryFile file(encoded("toy", 5));
+  StreamLoader loader(cli::open_stream_input(file.path()));
+  EXPECT_TRUE(await_frame(loader, 3)->values.empty());
+  for (const float sign : {1.0f, -1.0f}) {
+    loader.set_decorator(std::make_shared<NumberDecorator>(sign), 3);
+    for (std::uint64_t f = 3; f < 12; ++f) {
+      const auto frame = await_frame(loader, f);
+      ASSERT_EQ(frame->values.size(), frame->mesh->vertex_count);
+      EXPECT_EQ(frame->values[0], sign * static_cast<float>(f));
+    }
+  }
+  loader.set_decorator(nullptr, 5);
+  EXPECT_TRUE(await_frame(loader, 5)->values.empty());
+}
+
+TEST(FramesOfBytes, CountsWhatReachesFromAGopsStart) {
+  const std::vector<cli::GopMark> marks = {{0, 10, 100, 50}, {10, 10, 150, 50}, {20, 10, 200, 100}};
+  using Runs = std::vector<cli::FrameRun>;
+  EXPECT_EQ(cli::frames_of_bytes(marks, {{0, 300}}), (Runs{{0, 30}}));
+  EXPECT_EQ(cli::frames_of_bytes(marks, {{0, 175}}), (Runs{{0, 15}}));
+  EXPECT_EQ(cli::frames_of_bytes(marks, {{0, 120}, {150, 30}, {201, 99}}), (Runs{{0, 4}, {10, 6}}));
+  EXPECT_EQ(cli::frames_of_bytes(marks, {}), Runs{});
+  EXPECT_EQ(cli::frames_of_bytes({}, {{0, 300}}), Runs{});
 }
 
 }  // namespace
