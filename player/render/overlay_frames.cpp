@@ -12,7 +12,7 @@ namespace {
 
 // Few vertices lie far above all others; the colours are for the rest.
 constexpr double kShareBelowError = 0.999;
-constexpr double kShareBelowCost = 0.99;
+constexpr double kShareBelowCost = 0.95;
 
 }  // namespace
 
@@ -96,7 +96,7 @@ void OverlayFrames::make_legend(bool complete) {
       break;
     case Overlay::kCost:
       legend.title = "cost (CURV)";
-      legend.note = options_.largest ? "scale as given" : fmt::format("99 % of {}", where);
+      legend.note = options_.largest ? "scale as given" : fmt::format("95 % of {}", where);
       break;
     default: {
       legend.title = "distance to the reference";

@@ -115,8 +115,11 @@ void MeshRenderer::use_colour_map(ColourMap map) {
 
 const MeshRenderer::MeshProgram& MeshRenderer::mesh_program(const Style& style) {
   const bool points = face_count_ == 0;
-  const MeshShaderFeatures features{points || style.shading == Shading::kFlat || !has_normals_,
-                                    style.wireframe && !points, has_values_, points};
+  MeshShaderFeatures features;
+  features.flat = points || style.shading == Shading::kFlat || !has_normals_;
+  features.wireframe = style.wireframe && !points;
+  features.values = has_values_;
+  features.points = points;
   MeshProgram& program = programs_[(features.flat ? 1U : 0U) | (features.wireframe ? 2U : 0U) |
                                    (features.values ? 4U : 0U) | (features.points ? 8U : 0U)];
   if (!program.program) {
@@ -143,7 +146,7 @@ void MeshRenderer::draw(const OrbitCamera& camera, const Style& style, const Vie
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   if (has_frame_) draw_mesh(matrices, style, viewport);
-  if (style.grid) draw_grid(matrices, style);
+  if (style.grid) draw_grid(matrices, style, viewport);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
   glUseProgram(0);
@@ -187,7 +190,7 @@ void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style,
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style&) {
+void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport) {
   const GLuint program = grid_.get();
   const auto place = [program](const char* name) { return glGetUniformLocation(program, name); };
   const bool y_up = up_ == UpAxis::kY;
@@ -212,6 +215,11 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style&) {
   glUniform1f(place("cell"), static_cast<float>(cell));
   glUniform2f(place("phase"), phase(0), phase(across));
   glUniform3fv(place("ground_normal"), 1, matrices.view.data() + 4 * up);
+  // Lines of a pixel weigh more in a small picture.
+  const float strength = std::clamp(static_cast<float>(viewport.height) / 720, 0.35F, 1.0F);
+  const bool dark = style.background_bottom.green < 0.45F;
+  set_colour(place("ink"), dark ? Colour{0.75F, 0.80F, 0.88F} : Colour{0.22F, 0.25F, 0.31F});
+  glUniform1f(place("strength"), (dark ? 0.20F : 0.26F) * strength);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);

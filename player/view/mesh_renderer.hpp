@@ -19,7 +19,7 @@ struct Style {
   Shading shading = Shading::kSmooth;
   bool wireframe = false;
   bool grid = false;
-  Colour surface{0.80F, 0.69F, 0.60F};            ///< where no values colour it
+  Colour surface{0.84F, 0.70F, 0.60F};            ///< where no values colour it
   Colour background_top{0.93F, 0.94F, 0.955F};    ///< at the picture's upper edge
   Colour background_bottom{0.74F, 0.77F, 0.81F};  ///< at its lower edge
 };
@@ -63,7 +63,7 @@ class MeshRenderer {
 
   const MeshProgram& mesh_program(const Style& style);
   void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
-  void draw_grid(const CameraMatrices& matrices, const Style& style);
+  void draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
   void use_colour_map(ColourMap map);
 
   GlVertexArray mesh_array_, empty_array_;
