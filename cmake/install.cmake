@@ -1,10 +1,10 @@
-# What `cmake --install` writes: both libraries and their headers, a CMake package (find_package(tvg), targets
-# tvg::decoder and tvg::encoder) and pkg-config files (tvg-decoder, tvg-encoder).
+# What `cmake --install` writes: the libraries and their headers, a CMake package (find_package(tvg), targets
+# tvg::tvg with the C interface, tvg::decoder and tvg::encoder) and pkg-config files (tvg, tvg-decoder, tvg-encoder).
 include(CMakePackageConfigHelpers)
 
 set(tvg_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/tvg)
 
-install(TARGETS tvg_decoder tvg_encoder EXPORT tvg_targets
+install(TARGETS tvg_shared tvg_decoder tvg_encoder EXPORT tvg_targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT library)
@@ -22,8 +22,8 @@ install(FILES ${PROJECT_BINARY_DIR}/tvgConfig.cmake ${PROJECT_BINARY_DIR}/tvgCon
 
 # The prefix is written relative to the .pc file, so that an installed tree can be moved.
 file(RELATIVE_PATH tvg_pc_to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
-foreach(half decoder encoder)
-  configure_file(${CMAKE_CURRENT_LIST_DIR}/tvg-${half}.pc.in ${PROJECT_BINARY_DIR}/tvg-${half}.pc @ONLY)
-  install(FILES ${PROJECT_BINARY_DIR}/tvg-${half}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+foreach(package tvg tvg-decoder tvg-encoder)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${package}.pc.in ${PROJECT_BINARY_DIR}/${package}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
     COMPONENT library)
 endforeach()

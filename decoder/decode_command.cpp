@@ -86,37 +86,7 @@ class DecodeJob {
     output_frames_ = frames;
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
     sink_->begin_mesh(decoder.mesh(), decoder.metadata(), frames);
-    seek();
-  }
-
-  /// Passes over whole GOPs before the first wanted frame, when the index tells where they are.
-  void seek() {
-    if (!wanted_ || !index_) return;
-    std::uint64_t frame = 0;
-    const IndexEntry* mesh = nullptr;
-    const IndexEntry* first_mesh = nullptr;
-    for (const IndexEntry& entry : *index_) {
-      if (entry.kind == IndexEntry::Kind::kMesh) {
-        mesh = &entry;
-        if (first_mesh == nullptr) first_mesh = mesh;
-      } else if (frame + entry.frame_count > wanted_->first) {
-        const bool other_mesh = mesh != nullptr && mesh != first_mesh;
-        if (frame > 0)
-          reader_.jump(other_mesh ? mesh->offset : entry.offset, other_mesh ? frame_of(*mesh) : frame);
-        return;
-      } else {
-        frame += entry.frame_count;
-      }
-    }
-  }
-
-  std::uint64_t frame_of(const IndexEntry& wanted) const {
-    std::uint64_t frame = 0;
-    for (const IndexEntry& entry : *index_) {
-      if (&entry == &wanted) break;
-      frame += entry.frame_count;
-    }
-    return frame;
+    if (wanted_ && index_ && wanted_->first > 0) reader_.seek(wanted_->first);
   }
 
   bool is_wanted(std::uint64_t frame) const {

@@ -52,6 +52,9 @@ Decoder::Event StreamReader::next() {
   for (;;) {
     const Decoder::Event event = decoder_.poll();
     if (event != Decoder::Event::kNeedBytes) return event;
+    if (size_) {
+      if (const std::uint64_t count = decoder_.skip(); count > 0) move_to(count, SEEK_CUR);
+    }
     const std::size_t count = read_some(piece_.data(), piece_.size());
     if (count == 0) {
       decoder_.finish();
@@ -83,12 +86,18 @@ std::optional<std::vector<IndexEntry>> StreamReader::read_index() {
   const Result<std::vector<IndexEntry>> index =
       parse_index(read_at(range->offset, static_cast<std::size_t>(range->size)));
   if (!index) return std::nullopt;
+  decoder_.set_index(*index);
   return *index;
 }
 
-void StreamReader::jump(std::uint64_t offset, std::uint64_t frame) {
-  if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) throw io_error(name_, "cannot be read");
-  decoder_.jump(offset, frame);
+void StreamReader::seek(std::uint64_t frame) {
+  const Result<std::uint64_t> offset = decoder_.seek(frame);
+  if (!offset) throw tool_error(name_, offset.error());
+  move_to(*offset, SEEK_SET);
+}
+
+void StreamReader::move_to(std::uint64_t offset, int whence) {
+  if (::lseek(descriptor_, static_cast<off_t>(offset), whence) < 0) throw io_error(name_, "cannot be read");
 }
 
 std::string frame_run(std::uint64_t first, std::uint64_t count) {

@@ -25,12 +25,15 @@ class StreamReader {
   const std::string& name() const { return name_; }
   /// Bytes of the file; nothing where the input is not a file.
   std::optional<std::uint64_t> size() const { return size_; }
-  /// The index at the file's end, where the input is a file and has one that can be read.
+  /// The index at the file's end, where the input is a file and has one that can be read; the decoder then
+  /// seeks by it.
   std::optional<std::vector<IndexEntry>> read_index();
-  /// Goes on at the mesh or GOP chunk at `offset`, whose first frame has the number `frame`.
-  void jump(std::uint64_t offset, std::uint64_t frame);
+  /// Goes to a frame: the next kFrame is this one, or the first good one after it. The input is a file, and
+  /// its head has been read.
+  void seek(std::uint64_t frame);
 
  private:
+  void move_to(std::uint64_t offset, int whence);
   std::size_t read_some(void* target, std::size_t size);
   std::vector<std::uint8_t> read_at(std::uint64_t offset, std::size_t size);
 

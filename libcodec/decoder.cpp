@@ -58,8 +58,18 @@ const ChunkInfo& Decoder::chunk() const {
 const std::array<double, 3>& Decoder::frame_bits() const {
   return state_->frame_bits;
 }
-void Decoder::jump(std::uint64_t offset, std::uint64_t frame) {
-  state_->jump(offset, frame);
+void Decoder::set_index(const std::vector<IndexEntry>& entries) {
+  try {
+    state_->set_index(entries);
+  } catch (const std::bad_alloc&) {
+    state_->fail(out_of_memory());
+  }
+}
+Result<std::uint64_t> Decoder::seek(std::uint64_t frame) {
+  return state_->seek(frame);
+}
+std::uint64_t Decoder::skip() {
+  return state_->skip();
 }
 void Decoder::measure_bits(bool on) {
   state_->measures_bits = on;

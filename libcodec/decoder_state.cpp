@@ -171,7 +171,7 @@ std::optional<Decoder::Event> Decoder::State::read_chunk_start() {
       return lose_rest({ErrorCode::kMalformed, "the mesh is too long", {}, {}, "§4.3"});
   } else if (chunk_.type == kIndexChunk) {
     index_offset_ = chunk_offset_;
-    phase_ = chunk_.length <= 64 + 20 * seen_.size() + 16 * kMaxSmallPayload ? Phase::kPayload : Phase::kSkip;
+    phase_ = chunk_.length <= 64 + 20 * map_.size() + 16 * kMaxSmallPayload ? Phase::kPayload : Phase::kSkip;
   } else if (chunk_.ancillary) {
     phase_ = Phase::kSkip;
   } else {
@@ -277,20 +277,21 @@ std::optional<Decoder::Event> Decoder::State::use_mesh(Bytes payload) {
   }
   mesh = std::move(*decoded);
   has_mesh_ = true;
-  seen_.push_back({IndexEntry::Kind::kMesh, chunk_offset_, 0});
+  mesh_offset_ = chunk_offset_;
+  map_.note({IndexEntry::Kind::kMesh, chunk_offset_, 0}, position_);
   return Event::kMesh;
 }
 
 // format-spec §4.6
 std::optional<Decoder::Event> Decoder::State::use_index(Bytes payload) {
   constexpr std::size_t kRoom = 1u << 15;  // entries that the declared memory has room for in any stream
-  if (ByteReader(payload).varint() > seen_.size() + kRoom) return std::nullopt;
+  if (ByteReader(payload).varint() > map_.size() + kRoom) return std::nullopt;
   Result<std::vector<IndexEntry>> read = read_index(payload);
   if (!read) return lose_rest(read.error(), payload.size() + kChunkChecksumSize);
   index = std::move(*read);
   std::uint64_t frames = 0;
   for (const IndexEntry& entry : index) frames += entry.frame_count;
-  if (unreported_loss_ || (searched_ && frames > position_) || (!lost_anything_ && index != seen_)) {
+  if (unreported_loss_ || (searched_ && frames > position_) || (!lost_anything_ && !map_.matches(index))) {
     Error cause = unreported_loss_
                       ? *std::exchange(unreported_loss_, std::nullopt)
                       : Error{ErrorCode::kMalformed, "the index does not match the stream", {}, {}, "§4.6"};
@@ -342,17 +343,32 @@ std::optional<Decoder::Event> Decoder::State::read_packet() {
   return event;
 }
 
+/// Frames that damage before this GOP has taken, which is now known: from the place that the index gives the
+/// GOP, or from its label.
+std::uint64_t Decoder::State::frames_passed_over(const GopHeader& header) {
+  if (!std::exchange(searched_, false)) return 0;
+  const StreamMap::Place* const place = map_.from_index() ? map_.at(chunk_offset_) : nullptr;
+  std::uint64_t missing = 0;
+  if (place != nullptr) {
+    missing = place->first_frame > position_ ? place->first_frame - position_ : 0;
+  } else if (label_known_ && header.first_frame > expected_label_) {
+    missing = header.first_frame - expected_label_;
+  }
+  if (missing > 0 && !unreported_loss_) {
+    unreported_loss_ = Error{ErrorCode::kMalformed, "the damage reaches into the next GOP", {}, {}, "§8.3"};
+  }
+  return missing;
+}
+
 std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet, std::size_t total_bytes) {
   const Result<GopHeader> header = read_gop_header(packet);
   if (!header) return lose_rest(header.error(), total_bytes);
-  std::uint64_t missing = 0;
-  if (std::exchange(searched_, false) && header->first_frame > expected_label_) {
-    missing = header->first_frame - expected_label_;
-    if (!unreported_loss_) {
-      unreported_loss_ = Error{ErrorCode::kMalformed, "the damage reaches into the next GOP", {}, {}, "§8.3"};
-    }
-  }
+  const std::uint64_t missing = frames_passed_over(*header);
   expected_label_ = header->first_frame + header->frame_count;
+  label_known_ = true;
+  if (target_ && position_ + missing + header->frame_count <= *target_) {
+    return pass_gop(header->frame_count, missing, total_bytes);
+  }
   if (!has_mesh_) {
     Error cause = unreported_loss_
                       ? *std::exchange(unreported_loss_, std::nullopt)
@@ -366,11 +382,13 @@ std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet, std::size_
     unreported_loss_.reset();
     return report_loss(missing + header->frame_count, begun.error());
   }
-  seen_.push_back({IndexEntry::Kind::kGop, chunk_offset_, header->frame_count});
-  std::optional<Event> event = Event::kGop;
-  if (unreported_loss_) {
-    deferred_ = event;
-    event = report_loss(missing, *std::exchange(unreported_loss_, std::nullopt));
+  std::optional<Event> event = check_place(header->frame_count);
+  if (unreported_loss_) event = report_loss(missing, *std::exchange(unreported_loss_, std::nullopt));
+  map_.note({IndexEntry::Kind::kGop, chunk_offset_, header->frame_count}, position_);
+  if (event) {
+    deferred_ = Event::kGop;
+  } else {
+    event = Event::kGop;
   }
   gop_info = gop.info();
   gop_info.first_frame = position_;
@@ -390,6 +408,8 @@ std::optional<Decoder::Event> Decoder::State::decode_frame(Bytes packet, std::si
   }
   frame_number = position_++;
   frame_bytes = total_bytes;
+  if (target_ && frame_number < *target_) return std::nullopt;
+  target_.reset();
   return Event::kFrame;
 }
 

@@ -3,6 +3,7 @@
 #include "container/layout.hpp"
 #include "gop_decoder.hpp"
 #include "mesh_coder.hpp"
+#include "stream_map.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -30,19 +31,9 @@ class Decoder::State {
     buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
   }
 
-  void jump(std::uint64_t new_offset, std::uint64_t frame) {
-    if (phase_ == Phase::kFailed || !has_head_) return;
-    buffer_.clear();
-    begin_ = 0;
-    offset_ = new_offset;
-    phase_ = Phase::kChunkHeader;
-    deferred_.reset();
-    unreported_loss_.reset();
-    searched_ = false;
-    position_ = frame;
-    lost_anything_ = true;  // chunks were passed over: the index cannot be compared with what was seen
-    input_finished = false;
-  }
+  void set_index(const std::vector<IndexEntry>& entries) { map_.set_index(entries); }
+  Result<std::uint64_t> seek(std::uint64_t frame);
+  std::uint64_t skip();
 
   Event poll() {
     if (deferred_) return *std::exchange(deferred_, std::nullopt);
@@ -93,6 +84,7 @@ class Decoder::State {
   std::optional<Event> read_payload();
   std::optional<Event> skip_payload();
   std::optional<Event> read_packet();
+  std::uint64_t frames_passed_over(const GopHeader& header);
   std::optional<Event> begin_gop(Bytes packet, std::size_t total_bytes);
   std::optional<Event> decode_frame(Bytes packet, std::size_t total_bytes);
   std::optional<Event> end_gop();
@@ -102,6 +94,11 @@ class Decoder::State {
   std::optional<Event> use_head(Bytes payload);
   std::optional<Event> use_mesh(Bytes payload);
   std::optional<Event> use_index(Bytes payload);
+
+  /// Goes on at the chunk at `new_offset`, before the frame with this number.
+  void jump(std::uint64_t new_offset, std::uint64_t frame);
+  std::optional<Event> pass_gop(std::uint32_t frame_count, std::uint64_t missing, std::size_t header_bytes);
+  std::optional<Event> check_place(std::uint32_t frame_count);
 
   Bytes available() const { return Bytes(buffer_).subspan(begin_); }
   void consume(std::size_t count) {
@@ -139,7 +136,10 @@ class Decoder::State {
   bool searched_ = false;                      ///< chunks may have been passed over since the last GOP
   std::uint64_t read_in_vain_ = 0;             ///< bytes of structures that did not fit their checksums
   std::optional<std::uint64_t> index_offset_;  ///< of the index chunk, once it was met
-  std::vector<IndexEntry> seen_;               ///< what the index should hold
+  StreamMap map_;
+  std::uint64_t mesh_offset_ = 0;        ///< of the chunk of the mesh in force
+  std::optional<std::uint64_t> target_;  ///< the frame sought: frames before it are not given out
+  bool label_known_ = true;              ///< expected_label_ is that of the next GOP
 };
 
 }  // namespace tvg

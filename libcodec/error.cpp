@@ -8,6 +8,8 @@ const char* error_name(ErrorCode code) {
       return "invalid-argument";
     case ErrorCode::kInvalidInput:
       return "invalid-input";
+    case ErrorCode::kWrongState:
+      return "wrong-state";
     case ErrorCode::kNotTvg:
       return "not-tvg";
     case ErrorCode::kUnsupportedVersion:

@@ -4,6 +4,11 @@
 
 namespace tvg {
 
+const Skeleton& FrameSource::skeleton() const {
+  static const Skeleton none;
+  return none;
+}
+
 Result<bool> SequenceSource::read_frame(std::span<float> positions) {
   if (next_ == sequence_.frames.size()) return false;
   const FramePositions& frame = sequence_.frames[next_];

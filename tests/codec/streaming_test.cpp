@@ -141,68 +141,6 @@ TEST(Streaming, PositionsGoIntoACallersBufferWithAStride) {
   }
 }
 
-/// Entries of a stream's index, found from its tail.
-std::vector<IndexEntry> find_index(const Stream& stream) {
-  const Result<ByteRange> range = locate_index(std::span(stream).last(kTailBytes), stream.size());
-  EXPECT_TRUE(range);
-  const Result<std::vector<IndexEntry>> index = parse_index(std::span(stream).subspan(
-      static_cast<std::size_t>(range->offset), static_cast<std::size_t>(range->size)));
-  EXPECT_TRUE(index);
-  return index ? *index : std::vector<IndexEntry>();
-}
-
-TEST(Streaming, JumpToAnyGopGivesTheFramesOfAFullDecode) {
-  const Stream stream = encode_sequence(small_sequence(), hybrid_options());
-  const DecodedStream whole = decode_stream(stream);
-  const std::vector<IndexEntry> index = find_index(stream);
-  EXPECT_EQ(index, whole.index);
-  ASSERT_EQ(index.size(), 4u);
-  ASSERT_EQ(index[0].kind, IndexEntry::Kind::kMesh);
-  Decoder decoder;
-  DecodedStream seek;
-  decoder.push(std::span(stream).first(static_cast<std::size_t>(index[1].offset)));
-  ASSERT_TRUE(drain(decoder, seek));
-  for (const std::size_t gop : {3u, 1u, 2u, 2u, 1u, 3u}) {
-    const auto offset = static_cast<std::size_t>(index[gop].offset);
-    seek.frames.clear();
-    decoder.jump(offset, 5 * (gop - 1));
-    const std::size_t end = gop == 3 ? stream.size() : static_cast<std::size_t>(index[gop + 1].offset);
-    decoder.push(std::span(stream).subspan(offset, end - offset));
-    ASSERT_TRUE(drain(decoder, seek));
-    ASSERT_EQ(seek.frames.size(), index[gop].frame_count);
-    for (const DecodedFrame& frame : seek.frames) {
-      ASSERT_EQ(frame.positions, whole.frames[frame.number].positions) << "frame " << frame.number;
-    }
-    ASSERT_EQ(seek.frames.front().number, 5 * (gop - 1));
-    ASSERT_TRUE(seek.damage.empty());
-  }
-  decoder.finish();
-  EXPECT_FALSE(drain(decoder, seek));
-  EXPECT_TRUE(seek.complete);
-  EXPECT_TRUE(seek.damage.empty());
-}
-
-TEST(Streaming, JumpInTheMiddleOfAGopAndAfterTheEndWorks) {
-  const Stream stream = encode_sequence(small_sequence(), hybrid_options());
-  const std::vector<IndexEntry> index = find_index(stream);
-  const DecodedStream whole = decode_stream(stream);
-  Decoder decoder;
-  DecodedStream result;
-  decoder.push(std::span(stream).first(static_cast<std::size_t>(index[1].offset + 900)));
-  ASSERT_TRUE(drain(decoder, result));
-  for (int time = 0; time < 2; ++time) {
-    result = {};
-    decoder.jump(index[2].offset, 5);
-    decoder.push(std::span(stream).subspan(static_cast<std::size_t>(index[2].offset)));
-    decoder.finish();
-    ASSERT_FALSE(drain(decoder, result));
-    ASSERT_TRUE(result.complete) << result.error.describe();
-    ASSERT_TRUE(result.damage.empty());
-    ASSERT_EQ(result.frames.size(), 7u);
-    ASSERT_EQ(result.frames[6].positions, whole.frames[11].positions);
-  }
-}
-
 /// The chunks of a stream: type and bytes.
 std::vector<std::pair<ChunkType, Bytes>> chunks_of(const Stream& stream) {
   std::vector<std::pair<ChunkType, Bytes>> chunks;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-// tvg_make_seeds STREAMS FOLDER: turns the streams of a folder into seeds in FOLDER/decoder_fuzz and
-// FOLDER/connectivity_fuzz.
+// tvg_make_seeds STREAMS FOLDER: turns the streams of a folder into seeds for each fuzz target in a folder of
+// its name.
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,6 +31,20 @@ bool write_decoder_seeds(const fs::path& folder, const std::string& name,
     std::vector<std::uint8_t> seed(start.begin(), start.end());
     seed.insert(seed.end(), stream.begin(), stream.end());
     if (!write_file(folder / (name + "-" + std::to_string(start[0])), seed)) return false;
+  }
+  return true;
+}
+
+/// The C interface's seeds: options, calls in front of the stream as c_api_fuzz.cpp reads them.
+bool write_c_api_seeds(const fs::path& folder, const std::string& name,
+                       const std::vector<std::uint8_t>& stream) {
+  const std::vector<std::uint8_t> pushes = {0xF9, 6, 6, 6, 0xF8, 6, 0x21, 6, 6};
+  const std::vector<std::uint8_t> seeks = {0xF9, 6, 6, 6, 5, 0x23, 4, 0xF9, 6, 6, 6, 0x0B, 0xF9, 4, 6, 6};
+  for (const auto& calls : {pushes, seeks}) {
+    std::vector<std::uint8_t> seed = {2, static_cast<std::uint8_t>(calls.size())};
+    seed.insert(seed.end(), calls.begin(), calls.end());
+    seed.insert(seed.end(), stream.begin(), stream.end());
+    if (!write_file(folder / (name + "-" + std::to_string(calls.size())), seed)) return false;
   }
   return true;
 }
@@ -68,6 +82,7 @@ int main(int argc, char** argv) {
   std::error_code failed;
   fs::create_directories(target / "decoder_fuzz", failed);
   fs::create_directories(target / "connectivity_fuzz", failed);
+  fs::create_directories(target / "c_api_fuzz", failed);
   int count = 0;
   for (const auto& entry : fs::directory_iterator(argv[1], failed)) {
     if (entry.path().extension() != ".tvg") continue;
@@ -77,6 +92,7 @@ int main(int argc, char** argv) {
     const std::string name = entry.path().stem();
     if (stream.size() < tvg::kSignature.size() ||
         !write_decoder_seeds(target / "decoder_fuzz", name, stream) ||
+        !write_c_api_seeds(target / "c_api_fuzz", name, stream) ||
         !write_connectivity_seeds(target / "connectivity_fuzz", name, stream)) {
       std::fprintf(stderr, "tvg_make_seeds: no seeds from %s\n", entry.path().c_str());
       return 3;

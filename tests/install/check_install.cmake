@@ -25,11 +25,13 @@ run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --prefix ${prefix} --component li
 if(WAY STREQUAL find_package)
   run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags}
+    -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_C_FLAGS=${flags} -DEXAMPLES=${EXAMPLES}
     # Neither is part of the public interface: the package must do without them.
     -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DCMAKE_DISABLE_FIND_PACKAGE_nanoflann=ON)
   run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
   run(${SCRATCH}/build/decoder_consumer)
   run(${SCRATCH}/build/encoder_consumer)
+  run(sh -c "${SCRATCH}/build/print_frames < ${STREAM}")
 else()
   set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
   set(ENV{LD_LIBRARY_PATH} ${prefix}/${LIBDIR})
@@ -39,4 +41,8 @@ else()
     run(${COMPILER} -std=c++20 ${flags} ${CONSUMER}/${half}_consumer.cpp ${options} -o ${SCRATCH}/${half}_consumer)
     run(${SCRATCH}/${half}_consumer)
   endforeach()
+  run(${PKG_CONFIG} --cflags --libs tvg)
+  separate_arguments(options UNIX_COMMAND "${output}")
+  run(${C_COMPILER} -std=c99 ${flags} ${EXAMPLES}/print_frames.c ${options} -o ${SCRATCH}/print_frames)
+  run(sh -c "${SCRATCH}/print_frames < ${STREAM}")
 endif()

@@ -34,7 +34,7 @@ struct Damage {
 
 /// The importance and resolution of the GOP being decoded.
 struct GopInfo {
-  std::uint64_t first_frame = 0;  ///< position in the stream
+  std::uint64_t first_frame = 0;   ///< position in the stream
   std::uint64_t source_frame = 0;  ///< number of its first frame in the sequence that was encoded
   std::uint32_t frame_count = 0;
   Predictor predictor = Predictor::kElp;
@@ -103,12 +103,8 @@ class Decoder {
   void push(std::span<const std::uint8_t> bytes);
   /// Says that no bytes follow.
   void finish();
-  /// Goes on elsewhere: the next bytes pushed begin a mesh or GOP chunk at `offset` in the stream, and the
-  /// next frame has the number `frame`, both as the index tells. What was pushed and not used is dropped;
-  /// head and mesh stay.
-  void jump(std::uint64_t offset, std::uint64_t frame);
   /// Tells where meshes and GOPs lie (parse_index()), so that seek() can go anywhere at once.
-  void set_index(std::vector<IndexEntry> entries);
+  void set_index(const std::vector<IndexEntry>& entries);
   /// Goes to `frame`: the next kFrame is this one or, where it is lost, the first good one after it. Returns
   /// the offset in the stream at which the bytes pushed from now on begin. Without an index a frame beyond
   /// those met so far is reached by reading on; GOPs in between are passed over, not decoded.
@@ -119,7 +115,7 @@ class Decoder {
   std::uint64_t skip();
   /// Whether frame_bits() is measured; it takes time.
   void measure_bits(bool on);
-  /// The next event. After kEnd and kError it is the same forever.
+  /// The next event. After kEnd and kError it is the same until seek().
   Event poll();
 
   const StreamHead& head() const;

@@ -12,6 +12,7 @@ enum class ErrorCode : int {
   // 1x: the caller
   kInvalidArgument = 10,  ///< an option or argument is outside its documented range
   kInvalidInput = 11,     ///< geometry that cannot be encoded: NaN, infinity, index out of range, no faces
+  kWrongState = 12,       ///< what is asked for is not there yet, or not any more
   // 2x: the bytes
   kNotTvg = 20,              ///< the signature is missing
   kUnsupportedVersion = 21,  ///< a version or a critical chunk this decoder does not know

@@ -8,6 +8,7 @@
 
 #include <tvg/error.hpp>
 #include <tvg/mesh.hpp>
+#include <tvg/skeleton.hpp>
 
 namespace tvg {
 
@@ -34,6 +35,10 @@ class FrameSource {
   virtual const Mesh& mesh() const = 0;
   /// What the source knows about itself (fps, name, units).
   virtual Metadata metadata() const { return {}; }
+  /// The joints that move the mesh; empty where the source knows of none. Valid as long as the source.
+  virtual const Skeleton& skeleton() const;
+  /// Where the joints are in the frame that was read last, [joint][xyz]; valid until the next is read.
+  virtual std::span<const float> joint_positions() const { return {}; }
   /// Number of frames, where the source can know it before reading (a pipe may not).
   virtual std::optional<std::uint64_t> frame_count() const = 0;
   /// Reads the next frame into `positions` ([vertex][xyz], exactly 3 * vertex_count floats).
