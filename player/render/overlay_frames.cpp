@@ -52,6 +52,14 @@ void OverlayFrames::read_reference() {
 }
 
 void OverlayFrames::add_error() {
+  if (frames_->keeps_vertex_order() != references_->keeps_vertex_order()) {
+    const bool decoded = references_->keeps_vertex_order();
+    throw ToolError(ExitStatus::kUsage,
+                    fmt::format("--overlay error: {} gave up the order of its vertices, so that none can be "
+                                "found in {}",
+                                (decoded ? options_.inputs : options_.reference).front(),
+                                (decoded ? options_.reference : options_.inputs).front()));
+  }
   if (frame_.positions.size() != reference_frame_.positions.size()) {
     throw ToolError(
         ExitStatus::kInvalidInput,

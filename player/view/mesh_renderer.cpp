@@ -1,5 +1,6 @@
 #include "player/view/mesh_renderer.hpp"
 
+#include "player/view/draft_faces.hpp"
 #include "player/view/shaders.hpp"
 
 #include <algorithm>
@@ -14,6 +15,9 @@ constexpr GLuint kPositionAttribute = 0;
 constexpr GLuint kNormalAttribute = 1;
 constexpr GLuint kValueAttribute = 2;
 
+/// Below this, faces are larger than pixels, and a software renderer keeps up.
+constexpr std::size_t kManyFaces = 60000;
+
 /// Replaces a buffer's content. The driver may still draw the old one: it gets new memory, so that nobody
 /// waits.
 void stream(const GlBuffer& buffer, std::span<const float> values) {
@@ -21,6 +25,12 @@ void stream(const GlBuffer& buffer, std::span<const float> values) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
   glBufferData(GL_ARRAY_BUFFER, bytes, nullptr, GL_STREAM_DRAW);
   glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, values.data());
+}
+
+/// Through a target that no vertex array remembers.
+void send_faces(const GlBuffer& buffer, std::span<const Face> faces) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(faces.size_bytes()), faces.data(), GL_STATIC_DRAW);
 }
 
 void set_attribute(GLuint attribute, bool present) {
@@ -52,6 +62,7 @@ MeshRenderer::MeshRenderer()
       normals_(make_buffer()),
       values_(make_buffer()),
       faces_(make_buffer()),
+      draft_faces_(make_buffer()),
       colours_(make_texture()),
       background_(make_program(background_shader())),
       grid_(make_program(grid_shader())) {
@@ -63,7 +74,6 @@ MeshRenderer::MeshRenderer()
   glVertexAttribPointer(kNormalAttribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   glBindBuffer(GL_ARRAY_BUFFER, values_.get());
   glVertexAttribPointer(kValueAttribute, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, faces_.get());
   glBindVertexArray(0);
 }
 
@@ -71,10 +81,10 @@ void MeshRenderer::set_mesh(const Mesh& mesh) {
   vertex_count_ = mesh.vertex_count;
   face_count_ = mesh.faces.size();
   has_frame_ = false;
-  glBindVertexArray(mesh_array_.get());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(face_count_ * sizeof(Face)),
-               mesh.faces.data(), GL_STATIC_DRAW);
-  glBindVertexArray(0);
+  send_faces(faces_, mesh.faces);
+  const std::vector<Face> fewer = face_count_ < kManyFaces ? std::vector<Face>() : draft_faces(mesh);
+  draft_face_count_ = fewer.size();
+  send_faces(draft_faces_, fewer);
 }
 
 void MeshRenderer::set_scene(const Bounds& bounds, UpAxis up) {
@@ -185,7 +195,11 @@ void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style,
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
     glDisable(GL_PROGRAM_POINT_SIZE);
   } else {
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * face_count_), GL_UNSIGNED_INT, nullptr);
+    const bool draft = style.draft && draft_face_count_ > 0 && style.shading == Shading::kSmooth &&
+                       has_normals_ && !style.wireframe;
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, (draft ? draft_faces_ : faces_).get());
+    const std::size_t faces = draft ? draft_face_count_ : face_count_;
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * faces), GL_UNSIGNED_INT, nullptr);
   }
   glBindTexture(GL_TEXTURE_2D, 0);
 }
