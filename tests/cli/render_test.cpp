@@ -59,12 +59,9 @@ TEST_F(Render, DrawsTheSameFromAStreamAndFromWhatItDecodesTo) {
   EXPECT_EQ(picture("a.png").pixels, picture("b.png").pixels);
 }
 
-TEST_F(Render, DrawsTheSameFrameWhereverItStartsReading) {
-  good("tvg render hand.tvg -o one.png --frames 8 --size 96x72 -q");
-  good("cat hand.tvg | tvg render - -o piped_####.png --frames 8 --size 96x72 --no-labels -q");
-  good("tvg render hand.tvg -o all_####.png --frames 0-11 --size 96x72 -q");
-  EXPECT_EQ(files(".png").size(), 14U);
-  EXPECT_EQ(picture("piped_0008.png").width, 96);
+TEST_F(Render, DrawsWhatComesThroughAPipe) {
+  good("cat hand.tvg | tvg render - -o piped_####.png --frames 3-5 --size 96x72 -q");
+  EXPECT_EQ(files(".png"), (std::vector<std::string>{"piped_0003.png", "piped_0004.png", "piped_0005.png"}));
 }
 
 TEST_F(Render, MakesOneSheetOfSeveralFrames) {
@@ -83,18 +80,6 @@ TEST_F(Render, DrawsEveryOverlay) {
     good("tvg render hand.tvg -o overlay.png --frames 6 --size 96x72 --no-labels -q --overlay " + overlay);
     EXPECT_GT(compare_images(plain, picture("overlay.png"), 24).far_share, 0.05) << overlay;
   }
-}
-
-TEST_F(Render, CostOfAFrameDoesNotDependOnTheFramesAskedFor) {
-  good(
-      "tvg render hand.tvg -o a_%d.png --frames 7 --overlay cost --scale 0.1 --camera front --size 96x72 -q");
-  good(
-      "tvg render hand.tvg -o b_%d.png --frames 7 --overlay cost --scale 0.2 --camera front --size 96x72 -q");
-  good(
-      "cp hand.tvg c.tvg; tvg render c.tvg -o c_%d.png --frames 7 --overlay cost --scale 0.1 --camera front "
-      "--size 96x72 -q");
-  EXPECT_EQ(picture("a_7.png").pixels, picture("c_7.png").pixels);
-  EXPECT_NE(picture("a_7.png").pixels, picture("b_7.png").pixels);
 }
 
 TEST_F(Render, ShowsTheReferenceBeside) {
@@ -137,7 +122,7 @@ TEST_F(Render, RefusesAReferenceOfAnotherMesh) {
 }
 
 TEST_F(Render, StopsAtDamageUnlessToldToConcealIt) {
-  const auto gop = chunks("hand.tvg", "gop ").at(1);
+  const auto gop = chunks("hand.tvg", "GOP ").at(1);
   flip_byte("hand.tvg", gop.first + gop.second / 2);
   expect_failure("tvg render hand.tvg -o a_%02d.png --size 64x48 -q", 3, "--conceal");
   EXPECT_TRUE(files(".png").empty());
