@@ -40,6 +40,7 @@ class CostFrames final : public ShownFrames {
   }
 
   std::optional<std::uint64_t> total() const override { return gops_->total(); }
+  bool keeps_vertex_order() const override { return gops_->keeps_vertex_order(); }
   Metadata metadata() const override { return gops_->metadata(); }
 
  private:

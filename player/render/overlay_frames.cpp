@@ -12,7 +12,7 @@ namespace {
 
 // Few vertices lie far above all others; the colours are for the rest.
 constexpr double kShareBelowError = 0.999;
-constexpr double kShareBelowCost = 0.99;
+constexpr double kShareBelowCost = 0.95;
 
 }  // namespace
 
@@ -52,6 +52,14 @@ void OverlayFrames::read_reference() {
 }
 
 void OverlayFrames::add_error() {
+  if (frames_->keeps_vertex_order() != references_->keeps_vertex_order()) {
+    const bool decoded = references_->keeps_vertex_order();
+    throw ToolError(ExitStatus::kUsage,
+                    fmt::format("--overlay error: {} gave up the order of its vertices, so that none can be "
+                                "found in {}",
+                                (decoded ? options_.inputs : options_.reference).front(),
+                                (decoded ? options_.reference : options_.inputs).front()));
+  }
   if (frame_.positions.size() != reference_frame_.positions.size()) {
     throw ToolError(
         ExitStatus::kInvalidInput,
@@ -96,7 +104,7 @@ void OverlayFrames::make_legend(bool complete) {
       break;
     case Overlay::kCost:
       legend.title = "cost (CURV)";
-      legend.note = options_.largest ? "scale as given" : fmt::format("99 % of {}", where);
+      legend.note = options_.largest ? "scale as given" : fmt::format("95 % of {}", where);
       break;
     default: {
       legend.title = "distance to the reference";

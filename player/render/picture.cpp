@@ -63,10 +63,16 @@ void PicturePainter::label(const Cell& cell, const std::string& text) {
              text);
 }
 
-void PicturePainter::legend(const Legend& legend) {
+void PicturePainter::legend(const Legend& legend, bool lower_right) {
   if (list_ == nullptr) return;
   const float size = text_size(framebuffer_.height());
-  draw_legend(*list_, {size, size, size}, legend);
+  TextPlace place{size, size, size};
+  if (lower_right) {
+    const TextExtent extent = legend_extent(legend, size);
+    place.x = static_cast<float>(framebuffer_.width()) - extent.width - 0.6F * size;
+    place.y = static_cast<float>(framebuffer_.height()) - extent.height - 0.6F * size;
+  }
+  draw_legend(*list_, place, legend);
 }
 
 const Image& PicturePainter::finish() {

@@ -42,8 +42,8 @@ class PicturePainter {
   void clear(const Cell& cell);
   /// Text in the lower left corner of a cell.
   void label(const Cell& cell, const std::string& text);
-  /// The legend in the upper left corner of the picture.
-  void legend(const Legend& legend);
+  /// The legend in the upper left corner of the picture, or in the lower right one.
+  void legend(const Legend& legend, bool lower_right);
   /// The picture, valid until the next begin().
   const Image& finish();
 

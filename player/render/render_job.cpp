@@ -88,7 +88,7 @@ class RenderJob {
       if (drawn_ == 0) prepare(painter, cells[0].width, cells[0].height);
       painter.begin();
       draw_frame(painter, cells, {});
-      if (frames_.legend()) painter.legend(*frames_.legend());
+      if (frames_.legend()) painter.legend(*frames_.legend(), options_.side_by_side);
       output->add(painter.finish(), frames_.frame().number);
       bar_.update(++drawn_, count_);
     }
@@ -118,7 +118,7 @@ class RenderJob {
     if (drawn_ < wanted.size()) check_complete(position);
     for (std::size_t i = drawn_ * static_cast<std::size_t>(across); i < cells.size(); ++i)
       painter.clear(cells[i]);
-    if (frames_.legend()) painter.legend(*frames_.legend());
+    if (frames_.legend()) painter.legend(*frames_.legend(), options_.side_by_side);
     write_png(options_.output, painter.finish());
     files_ = {options_.output};
   }

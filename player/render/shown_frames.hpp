@@ -32,6 +32,8 @@ class ShownFrames {
   virtual bool rewind() = 0;
   /// The number of frames, or of those up to the range's last, where it is known before the end.
   virtual std::optional<std::uint64_t> total() const = 0;
+  /// Whether vertices come in the order of the sequence that was encoded.
+  virtual bool keeps_vertex_order() const { return true; }
   /// Valid as soon as the frames are open.
   virtual Metadata metadata() const = 0;
 };

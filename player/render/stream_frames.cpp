@@ -42,6 +42,7 @@ class StreamFrames final : public ShownFrames {
   }
 
   std::optional<std::uint64_t> total() const override { return total_; }
+  bool keeps_vertex_order() const override { return reader_->decoder().mesh_info().keeps_vertex_order; }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
 
  private:
@@ -61,27 +62,16 @@ class StreamFrames final : public ShownFrames {
     if (!mesh_) throw ToolError(ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
     if (!spec_.frames) return;
     number_ = spec_.frames->first;
-    if (index) pass_over(*index);
+    if (number_ > 0 && index) reader_->seek(spec_.whole_gops ? begin_of_gop(*index, number_) : number_);
   }
 
-  /// Goes to the GOP of the first wanted frame, or to its mesh where that is not the first.
-  void pass_over(const std::vector<IndexEntry>& index) {
-    std::uint64_t frame = 0;
-    std::uint64_t mesh_frame = 0;
-    int meshes = 0;
-    const IndexEntry* mesh = nullptr;
+  static std::uint64_t begin_of_gop(const std::vector<IndexEntry>& index, std::uint64_t number) {
+    std::uint64_t begin = 0;
     for (const IndexEntry& entry : index) {
-      if (entry.kind == IndexEntry::Kind::kMesh) {
-        mesh = &entry;
-        mesh_frame = frame;
-        ++meshes;
-      } else if (frame + entry.frame_count > number_) {
-        if (frame > 0)
-          reader_->seek(frame);
-        return;
-      }
-      frame += entry.frame_count;
+      if (begin + entry.frame_count > number) break;
+      begin += entry.frame_count;
     }
+    return begin;
   }
 
   bool past_range(std::uint64_t number) const {

@@ -1,5 +1,6 @@
 #include "player/view/mesh_renderer.hpp"
 
+#include "player/view/draft_faces.hpp"
 #include "player/view/shaders.hpp"
 
 #include <algorithm>
@@ -14,6 +15,9 @@ constexpr GLuint kPositionAttribute = 0;
 constexpr GLuint kNormalAttribute = 1;
 constexpr GLuint kValueAttribute = 2;
 
+/// Below this, faces are larger than pixels, and a software renderer keeps up.
+constexpr std::size_t kManyFaces = 60000;
+
 /// Replaces a buffer's content. The driver may still draw the old one: it gets new memory, so that nobody
 /// waits.
 void stream(const GlBuffer& buffer, std::span<const float> values) {
@@ -21,6 +25,12 @@ void stream(const GlBuffer& buffer, std::span<const float> values) {
   glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
   glBufferData(GL_ARRAY_BUFFER, bytes, nullptr, GL_STREAM_DRAW);
   glBufferSubData(GL_ARRAY_BUFFER, 0, bytes, values.data());
+}
+
+/// Through a target that no vertex array remembers.
+void send_faces(const GlBuffer& buffer, std::span<const Face> faces) {
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(faces.size_bytes()), faces.data(), GL_STATIC_DRAW);
 }
 
 void set_attribute(GLuint attribute, bool present) {
@@ -52,6 +62,7 @@ MeshRenderer::MeshRenderer()
       normals_(make_buffer()),
       values_(make_buffer()),
       faces_(make_buffer()),
+      draft_faces_(make_buffer()),
       colours_(make_texture()),
       background_(make_program(background_shader())),
       grid_(make_program(grid_shader())) {
@@ -63,7 +74,6 @@ MeshRenderer::MeshRenderer()
   glVertexAttribPointer(kNormalAttribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   glBindBuffer(GL_ARRAY_BUFFER, values_.get());
   glVertexAttribPointer(kValueAttribute, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, faces_.get());
   glBindVertexArray(0);
 }
 
@@ -71,10 +81,10 @@ void MeshRenderer::set_mesh(const Mesh& mesh) {
   vertex_count_ = mesh.vertex_count;
   face_count_ = mesh.faces.size();
   has_frame_ = false;
-  glBindVertexArray(mesh_array_.get());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(face_count_ * sizeof(Face)),
-               mesh.faces.data(), GL_STATIC_DRAW);
-  glBindVertexArray(0);
+  send_faces(faces_, mesh.faces);
+  const std::vector<Face> fewer = face_count_ < kManyFaces ? std::vector<Face>() : draft_faces(mesh);
+  draft_face_count_ = fewer.size();
+  send_faces(draft_faces_, fewer);
 }
 
 void MeshRenderer::set_scene(const Bounds& bounds, UpAxis up) {
@@ -115,8 +125,11 @@ void MeshRenderer::use_colour_map(ColourMap map) {
 
 const MeshRenderer::MeshProgram& MeshRenderer::mesh_program(const Style& style) {
   const bool points = face_count_ == 0;
-  const MeshShaderFeatures features{points || style.shading == Shading::kFlat || !has_normals_,
-                                    style.wireframe && !points, has_values_, points};
+  MeshShaderFeatures features;
+  features.flat = points || style.shading == Shading::kFlat || !has_normals_;
+  features.wireframe = style.wireframe && !points;
+  features.values = has_values_;
+  features.points = points;
   MeshProgram& program = programs_[(features.flat ? 1U : 0U) | (features.wireframe ? 2U : 0U) |
                                    (features.values ? 4U : 0U) | (features.points ? 8U : 0U)];
   if (!program.program) {
@@ -143,7 +156,7 @@ void MeshRenderer::draw(const OrbitCamera& camera, const Style& style, const Vie
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   if (has_frame_) draw_mesh(matrices, style, viewport);
-  if (style.grid) draw_grid(matrices, style);
+  if (style.grid) draw_grid(matrices, style, viewport);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
   glUseProgram(0);
@@ -182,12 +195,16 @@ void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style,
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
     glDisable(GL_PROGRAM_POINT_SIZE);
   } else {
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * face_count_), GL_UNSIGNED_INT, nullptr);
+    const bool draft = style.draft && draft_face_count_ > 0 && style.shading == Shading::kSmooth &&
+                       has_normals_ && !style.wireframe;
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, (draft ? draft_faces_ : faces_).get());
+    const std::size_t faces = draft ? draft_face_count_ : face_count_;
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * faces), GL_UNSIGNED_INT, nullptr);
   }
   glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style&) {
+void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport) {
   const GLuint program = grid_.get();
   const auto place = [program](const char* name) { return glGetUniformLocation(program, name); };
   const bool y_up = up_ == UpAxis::kY;
@@ -212,6 +229,11 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style&) {
   glUniform1f(place("cell"), static_cast<float>(cell));
   glUniform2f(place("phase"), phase(0), phase(across));
   glUniform3fv(place("ground_normal"), 1, matrices.view.data() + 4 * up);
+  // Lines of a pixel weigh more in a small picture.
+  const float strength = std::clamp(static_cast<float>(viewport.height) / 720, 0.35F, 1.0F);
+  const bool dark = style.background_bottom.green < 0.45F;
+  set_colour(place("ink"), dark ? Colour{0.75F, 0.80F, 0.88F} : Colour{0.22F, 0.25F, 0.31F});
+  glUniform1f(place("strength"), (dark ? 0.20F : 0.26F) * strength);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);

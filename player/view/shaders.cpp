@@ -6,6 +6,42 @@ namespace {
 
 constexpr const char* kVersion = "#version 330 core\n";
 
+// Lights hang at the camera, but above and below are those of the sequence. Colours are squares of sRGB until
+// the last line.
+constexpr const char* kLight = R"(
+uniform vec3 up;
+#ifdef VALUES
+uniform sampler2D colours;
+vec3 base_colour(float amount) {
+  vec3 base = textureLod(colours, vec2(amount * (255.0 / 256.0) + 0.5 / 256.0, 0.5), 0.0).rgb;
+  return base * base;
+}
+const float gloss = 0.45;
+const float evenness = 0.35;  // shadows must not be taken for values
+#else
+uniform vec3 surface;
+vec3 base_colour(float amount) { return surface * surface; }
+const float gloss = 1.0;
+const float evenness = 0.0;
+#endif
+vec3 lit(vec3 base, vec3 n, vec3 to_eye, bool back) {
+  if (back) base *= vec3(0.62, 0.70, 0.84);
+  float facing = max(dot(n, to_eye), 0.0);
+  vec3 key = vec3(-0.50, 0.66, 0.56);
+  vec3 light = mix(vec3(0.130, 0.115, 0.110), vec3(0.30, 0.325, 0.36), 0.5 + 0.5 * dot(n, up));
+  light += vec3(0.98, 0.91, 0.80) * max(dot(n, key), 0.0);
+  light += vec3(0.10, 0.135, 0.20) * max(dot(n, vec3(0.76, -0.08, 0.645)), 0.0);
+  light += vec3(0.06) * facing;
+  light = mix(light, vec3(1.05), evenness);
+  float shine = max(dot(n, normalize(key + to_eye)), 0.0);
+  shine *= shine; shine *= shine; shine *= shine; shine *= shine;
+  float rim = 1.0 - facing;
+  rim *= rim * rim;
+  vec3 colour = base * light + gloss * (0.075 * shine + vec3(0.10, 0.115, 0.14) * rim);
+  return sqrt(clamp(colour, 0.0, 1.0));
+}
+)";
+
 constexpr const char* kMeshVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -98,15 +134,13 @@ in vec3 direction;
 #endif
 #ifdef VALUES
 in float amount;
-uniform sampler2D colours;
 #else
-uniform vec3 surface;
+const float amount = 0.0;
 #endif
 #ifdef WIREFRAME
 noperspective in vec3 to_edge;
 flat in float wire;
 #endif
-uniform vec3 up;
 out vec4 colour;
 void main() {
   vec3 to_eye = normalize(-at);
@@ -114,42 +148,21 @@ void main() {
   vec3 n = to_eye;
   bool back = false;
 #else
-  vec3 n = cross(dFdx(at), dFdy(at));
   bool back = !gl_FrontFacing;
-#ifndef FLAT
-  if (dot(direction, direction) > 1e-8) n = back ? -direction : direction;
+#ifdef FLAT
+  vec3 n = cross(dFdx(at), dFdy(at));
+#else
+  vec3 n = back ? -direction : direction;
+  if (dot(n, n) < 1e-8) n = cross(dFdx(at), dFdy(at));
 #endif
   n *= inversesqrt(max(dot(n, n), 1e-30));
 #endif
-  // Lights hang at the camera, but above and below are those of the sequence. Colours are squares of sRGB.
-#ifdef VALUES
-  vec3 base = texture(colours, vec2(amount * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
-  base *= base;
-#else
-  vec3 base = surface * surface;
-#endif
-  if (back) base *= vec3(0.62, 0.70, 0.84);
-  float facing = max(dot(n, to_eye), 0.0);
-  vec3 key = vec3(-0.46, 0.62, 0.635);
-  vec3 light = mix(vec3(0.20, 0.185, 0.175), vec3(0.40, 0.43, 0.47), 0.5 + 0.5 * dot(n, up));
-  light += vec3(0.80, 0.745, 0.66) * max(dot(n, key), 0.0);
-  light += vec3(0.12, 0.145, 0.19) * max(dot(n, vec3(0.76, -0.08, 0.645)), 0.0);
-  light += vec3(0.06) * facing;
-  float shine = max(dot(n, normalize(key + to_eye)), 0.0);
-  shine *= shine; shine *= shine; shine *= shine; shine *= shine;
-  float rim = 1.0 - facing;
-  rim *= rim * rim;
-#ifdef VALUES
-  vec3 lit = base * light + 0.03 * shine + vec3(0.05, 0.06, 0.08) * rim;
-#else
-  vec3 lit = base * light + 0.075 * shine + vec3(0.10, 0.115, 0.14) * rim;
-#endif
-  lit = sqrt(clamp(lit, 0.0, 1.0));
+  vec3 seen = lit(base_colour(amount), n, to_eye, back);
 #ifdef WIREFRAME
   float near = min(to_edge.x, min(to_edge.y, to_edge.z));
-  lit = mix(lit, vec3(0.10, 0.11, 0.15), (1.0 - smoothstep(0.25, 1.15, near)) * mix(0.16, 0.62, wire));
+  seen = mix(seen, vec3(0.10, 0.11, 0.15), (1.0 - smoothstep(0.25, 1.15, near)) * mix(0.12, 0.50, wire));
 #endif
-  colour = vec4(lit, 1.0);
+  colour = vec4(seen, 1.0);
 }
 )";
 
@@ -203,6 +216,8 @@ in vec2 place;
 in vec2 from_center;
 in vec3 at;
 uniform vec3 ground_normal;
+uniform vec3 ink;
+uniform float strength;
 out vec4 colour;
 float lines(vec2 where) {
   vec2 width = max(fwidth(where), vec2(1e-6));
@@ -213,8 +228,8 @@ float lines(vec2 where) {
 void main() {
   float fade = 1.0 - smoothstep(0.15, 1.0, length(from_center));
   float grazing = smoothstep(0.015, 0.16, abs(dot(normalize(at), ground_normal)));
-  float strength = max(0.17 * lines(place), 0.34 * lines(place / 5.0));
-  colour = vec4(0.22, 0.25, 0.31, strength * fade * fade * grazing);
+  float covered = strength * max(0.5 * lines(place), lines(place / 5.0));
+  colour = vec4(ink, covered * fade * fade * grazing);
 }
 )";
 
@@ -227,7 +242,7 @@ ShaderText mesh_shader(const MeshShaderFeatures& features) {
   if (features.values) head += "#define VALUES\n";
   if (features.points) head += "#define POINTS\n";
   return {head + kMeshVertex, features.wireframe ? head + kWireGeometry : std::string(),
-          head + kMeshFragment};
+          head + kLight + kMeshFragment};
 }
 
 ShaderText background_shader() {

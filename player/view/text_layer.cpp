@@ -87,22 +87,29 @@ void draw_label(ImDrawList& list, const TextPlace& place, const std::string& tex
   put(list, place.size, place.x + 0.5F * place.size, place.y + 0.22F * place.size, kInk, text);
 }
 
+TextExtent legend_extent(const Legend& legend, float size) {
+  const bool flags = legend.map == ColourMap::kFlags;
+  const auto beside_colour = [size](const std::string& text) {
+    return 1.4F * size + text_width(0.85F * size, text);
+  };
+  float width = std::max(text_width(size, legend.title), text_width(0.8F * size, legend.note));
+  width = std::max(width, beside_colour(flags ? legend.flagged : "0.00012 " + legend.units));
+  if (flags) width = std::max(width, beside_colour(legend.plain));
+  const float noted = legend.note.empty() ? 0 : 1.1F * size;
+  return {width + 1.4F * size, (flags ? 4.9F : 11.0F) * size + noted};
+}
+
 void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend) {
   const float size = place.size;
-  const bool flags = legend.map == ColourMap::kFlags;
-  const float noted = legend.note.empty() ? 0 : 1.1F * size;
-  float width = std::max(text_width(size, legend.title), text_width(0.8F * size, legend.note));
-  width = std::max(
-      width, 1.4F * size + text_width(0.85F * size, flags ? legend.flagged : "0.00012 " + legend.units));
-  if (flags) width = std::max(width, 1.4F * size + text_width(0.85F * size, legend.plain));
-  plate(list, place, width + 1.4F * size, (flags ? 4.9F : 11.0F) * size + noted);
+  const TextExtent extent = legend_extent(legend, size);
+  plate(list, place, extent.width, extent.height);
   const float x = place.x + 0.7F * size;
   float y = place.y + 0.45F * size;
   put(list, size, x, y, kInk, legend.title);
   y += 1.3F * size;
   if (!legend.note.empty()) put(list, 0.8F * size, x, y, kFaintInk, legend.note);
-  y += noted + 0.4F * size;
-  if (flags) {
+  y += (legend.note.empty() ? 0.4F : 1.5F) * size;
+  if (legend.map == ColourMap::kFlags) {
     draw_swatch(list, x, y, size, map_colour(legend.map, 1), legend.flagged);
     draw_swatch(list, x, y + 1.4F * size, size, map_colour(legend.map, 0), legend.plain);
   } else {

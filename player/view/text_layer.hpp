@@ -35,6 +35,14 @@ float text_size(int picture_height);
 /// A line of text on a soft plate at `place`, its upper left corner. ImGui must have a frame begun.
 void draw_label(ImDrawList& list, const TextPlace& place, const std::string& text);
 
+struct TextExtent {
+  float width = 0;
+  float height = 0;
+};
+
+/// What a legend covers, in pixels, with letters of `size`. ImGui must have a frame begun.
+TextExtent legend_extent(const Legend& legend, float size);
+
 /// The legend; `place` is its upper left corner. ImGui must have a frame begun.
 void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend);
 

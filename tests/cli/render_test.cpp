@@ -1,0 +1,170 @@
+#include "tests/cli/tool_test_fixture.hpp"
+
+#ifdef TVG_HAS_PLAYER
+
+#include "player/view/image.hpp"
+
+#include <algorithm>
+
+namespace tvg::cli::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `tvg render` as a user types it. Small pictures: a software renderer draws them.
+class Render : public ToolTest {
+ protected:
+  Render() { good("tvg encode hand.obj hand.pc2 -o hand.tvg --bits 12:9 --important 35% --gop 5 -q"); }
+
+  void SetUp() override {
+    const Outcome outcome = run("tvg render hand.tvg -o probe.png --frames 0 --size 32x32 -q");
+    if (outcome.err.find("cannot draw without a display") != std::string::npos) GTEST_SKIP() << outcome.err;
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    fs::remove(folder_.path("probe.png"));
+  }
+
+  /// Names of files with this suffix, sorted.
+  std::vector<std::string> files(const std::string& suffix) const {
+    std::vector<std::string> names;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path(""))) {
+      if (entry.path().extension() == suffix) names.push_back(entry.path().filename().string());
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  bool nothing_unfinished() const {
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path(""))) {
+      if (entry.path().filename().string().find(".tmp") != std::string::npos) return false;
+    }
+    return true;
+  }
+
+  Image picture(const std::string& name) const { return read_png(folder_.path(name)); }
+};
+
+TEST_F(Render, NumbersPicturesAsFramesAre) {
+  good("tvg render hand.tvg -o out_%03d.png --frames 3-6 --size 64x48 -q");
+  EXPECT_EQ(files(".png"),
+            (std::vector<std::string>{"out_003.png", "out_004.png", "out_005.png", "out_006.png"}));
+  EXPECT_EQ(picture("out_003.png").width, 64);
+  EXPECT_EQ(picture("out_003.png").height, 48);
+  EXPECT_NE(picture("out_003.png").pixels, picture("out_006.png").pixels);
+}
+
+TEST_F(Render, DrawsTheSameFromAStreamAndFromWhatItDecodesTo) {
+  good("tvg decode hand.tvg -o back.pc2 -q");
+  good("tvg render hand.tvg -o a.png --frames 7 --size 96x72 -q");
+  good("tvg render back.obj back.pc2 -o b.png --frames 7 --size 96x72 -q");
+  EXPECT_EQ(picture("a.png").pixels, picture("b.png").pixels);
+}
+
+TEST_F(Render, DrawsWhatComesThroughAPipe) {
+  good("cat hand.tvg | tvg render - -o piped_####.png --frames 3-5 --size 96x72 -q");
+  EXPECT_EQ(files(".png"), (std::vector<std::string>{"piped_0003.png", "piped_0004.png", "piped_0005.png"}));
+}
+
+TEST_F(Render, MakesOneSheetOfSeveralFrames) {
+  good("tvg render hand.tvg -o sheet.png --size 320x240 -q");
+  good("tvg render hand.tvg -o sheet2.png --size 320x240 --sheet 2x1 -q");
+  EXPECT_EQ(files(".png"), (std::vector<std::string>{"sheet.png", "sheet2.png"}));
+  EXPECT_EQ(picture("sheet.png").width, 320);
+  EXPECT_EQ(picture("sheet.png").height, 240);
+  EXPECT_NE(picture("sheet.png").pixels, picture("sheet2.png").pixels);
+}
+
+TEST_F(Render, DrawsEveryOverlay) {
+  good("tvg render hand.tvg -o none.png --frames 6 --size 96x72 --no-labels -q");
+  const Image plain = picture("none.png");
+  for (const std::string overlay : {"importance", "cost", "error --ref hand.obj hand.pc2"}) {
+    good("tvg render hand.tvg -o overlay.png --frames 6 --size 96x72 --no-labels -q --overlay " + overlay);
+    EXPECT_GT(compare_images(plain, picture("overlay.png"), 24).far_share, 0.05) << overlay;
+  }
+}
+
+TEST_F(Render, ShowsTheReferenceBeside) {
+  good(
+      "tvg render hand.tvg -o both.png --frames 6 --size 192x72 --no-labels -q --side-by-side --ref hand.obj "
+      "hand.pc2");
+  EXPECT_EQ(picture("both.png").width, 192);
+}
+
+TEST_F(Render, RefusesWhatDoesNotGoTogether) {
+  expect_failure("tvg render hand.tvg -o a.gif", 1, "out%04d.png");
+  expect_failure("tvg render hand.tvg -o a.png --size 10", 1, "1280x720");
+  expect_failure("tvg render hand.tvg -o a.png --size 99999x10", 1, "1280x720");
+  expect_failure("tvg render hand.tvg -o a.mp4 --size 63x48", 1, "even");
+  expect_failure("tvg render hand.tvg -o a.png --camera up", 1, "iso");
+  expect_failure("tvg render hand.tvg -o a.png --overlay heat", 1, "importance");
+  expect_failure("tvg render hand.tvg -o a.png --overlay error", 1, "--ref");
+  expect_failure("tvg render hand.tvg -o a.png --side-by-side", 1, "--ref");
+  expect_failure("tvg render hand.tvg -o a.png --ref hand.obj hand.pc2", 1, "--overlay error");
+  expect_failure("tvg render hand.obj hand.pc2 -o a.png --overlay importance", 1, ".tvg");
+  expect_failure("tvg render hand.tvg -o a%d.png --sheet 2x2", 1, "contact sheet");
+  expect_failure("tvg render hand.tvg -o a.png --sheet 0x2", 1, "4x3");
+  expect_failure("tvg render hand.tvg -o a.png --fps 30", 1, "clip");
+  expect_failure("tvg render hand.tvg -o a.mp4 --fps fast", 1, "30000/1001");
+  expect_failure("tvg render hand.tvg -o a.png --frames 9-12", 1, "0-11");
+  expect_failure("tvg render hand.tvg -o a.png --background pink", 1, "#rrggbb");
+  expect_failure("tvg render hand.tvg -o a.png --shading round", 1, "flat");
+  expect_failure("tvg render hand.tvg -o a.png --scale 2", 1, "--overlay");
+  expect_failure("tvg render none.tvg -o a.png", 2, "none.tvg");
+  expect_failure("cat hand.tvg | tvg render - -o a.png", 1, "--frames");
+  EXPECT_TRUE(files(".png").empty());
+  EXPECT_TRUE(nothing_unfinished());
+}
+
+TEST_F(Render, RefusesAReferenceOfAnotherMesh) {
+  corpus::write_obj(folder_.path("toy.obj"), corpus::find_corpus_entry("toy")->make({1000, 1}).sequence);
+  expect_failure("tvg render hand.tvg -o a.png --frames 0 --overlay error --ref toy.obj", 3, "vertices");
+  expect_failure("tvg render hand.tvg -o a_%d.png --size 64x48 --side-by-side --ref toy.obj", 3,
+                 "ends before");
+}
+
+TEST_F(Render, StopsAtDamageUnlessToldToConcealIt) {
+  const auto gop = chunks("hand.tvg", "GOP ").at(1);
+  flip_byte("hand.tvg", gop.first + gop.second / 2);
+  expect_failure("tvg render hand.tvg -o a_%02d.png --size 64x48 -q", 3, "--conceal");
+  EXPECT_TRUE(files(".png").empty());
+  const Outcome outcome = good("tvg render hand.tvg -o a_%02d.png --size 64x48 -q --conceal");
+  EXPECT_THAT(outcome.err, ::testing::HasSubstr("lost"));
+  EXPECT_EQ(files(".png").size(), 12U);
+  EXPECT_EQ(picture("a_09.png").pixels, picture("a_08.png").pixels);
+}
+
+TEST_F(Render, WritesAClip) {
+  if (run("command -v ffmpeg && command -v ffprobe").status != 0) GTEST_SKIP() << "no ffmpeg here";
+  good("tvg render hand.tvg -o clip.mp4 --frames 2-9 --size 64x48 --fps 24 -q");
+  const Outcome probe = good(
+      "ffprobe -v error -count_frames -show_entries stream=width,height,pix_fmt,r_frame_rate,nb_read_frames "
+      "-of default=nw=1 clip.mp4");
+  for (const char* line :
+       {"width=64", "height=48", "pix_fmt=yuv420p", "r_frame_rate=24/1", "nb_read_frames=8"}) {
+    EXPECT_THAT(probe.out, ::testing::HasSubstr(line));
+  }
+  EXPECT_TRUE(nothing_unfinished());
+}
+
+TEST_F(Render, SaysHowToGoOnWithoutFfmpeg) {
+  const std::string tool = TVG_TOOL;
+  expect_failure("PATH=/nowhere '" + tool + "' render hand.tvg -o clip.mp4 --size 64x48 -q", 4,
+                 "out%04d.png");
+  EXPECT_FALSE(fs::exists(folder_.path("clip.mp4")));
+  EXPECT_TRUE(nothing_unfinished());
+}
+
+TEST_F(Render, LeavesNoClipWhereFfmpegOrTheStreamFails) {
+  good(
+      "mkdir hollow; printf '#!/bin/sh\\necho no codec here >&2\\nexit 3\\n' > hollow/ffmpeg; chmod +x "
+      "hollow/ffmpeg");
+  expect_failure(
+      "PATH=hollow:/usr/bin:/bin '" + std::string(TVG_TOOL) + "' render hand.tvg -o clip.mp4 --size 64x48 -q",
+      4, "no codec here");
+  EXPECT_FALSE(fs::exists(folder_.path("clip.mp4")));
+  EXPECT_TRUE(nothing_unfinished());
+}
+
+}  // namespace
+}  // namespace tvg::cli::testing
+
+#endif

@@ -1,0 +1,136 @@
+#include "tests/view/pictures.hpp"
+
+#include "corpus/corpus.hpp"
+#include "player/render/sheet.hpp"
+#include "player/view/overlay.hpp"
+#include "tests/view/view_toolbox.hpp"
+
+#include <array>
+
+#include <tvg/decoder.hpp>
+#include <tvg/encoder.hpp>
+
+namespace tvg::cli::testing {
+
+namespace {
+
+constexpr std::uint32_t kFrames = 12;
+
+Sequence corpus_sequence(std::string_view name, std::uint32_t vertices) {
+  return corpus::find_corpus_entry(name)->make({vertices, kFrames}).sequence;
+}
+
+Image draw(const Sequence& sequence, const ShownFrame& frame, const Style& style,
+           ColourMap map = ColourMap::kViridis) {
+  PicturePainter painter(kWidth, kHeight, style, false);
+  const Bounds bounds = bounds_of(sequence);
+  painter.set_scene(bounds, UpAxis::kY, camera_for(bounds, static_cast<double>(kWidth) / kHeight));
+  painter.begin();
+  painter.draw(frame, PicturePainter::Which::kShown, map, {0, 0, kWidth, kHeight});
+  return painter.finish();
+}
+
+Image draw_smooth() {
+  return draw_hand(5);
+}
+
+Image draw_flat() {
+  const Sequence toy = corpus_sequence("toy", 2000);
+  Style style;
+  style.shading = Shading::kFlat;
+  style.grid = true;
+  return draw(toy, shown_frame(toy, 3), style);
+}
+
+Image draw_wireframe() {
+  const Sequence face = corpus_sequence("face", 500);
+  Style style;
+  style.wireframe = true;
+  return draw(face, shown_frame(face, 6), style);
+}
+
+/// The flags of a real stream, as a player gets them.
+Image draw_importance() {
+  const Sequence hand = corpus_sequence("hand", 1600);
+  EncodeOptions options;
+  options.fine_bits = 12;
+  options.coarse_bits = 9;
+  options.importance.share = 0.35;
+  Decoder decoder;
+  SequenceSource source(hand);
+  static_cast<void>(encode(source, options, [&decoder](std::span<const std::uint8_t> bytes) {
+    decoder.push(bytes);
+    return Status();
+  }));
+  decoder.finish();
+  while (decoder.poll() != Decoder::Event::kFrame) {
+  }
+  ShownFrame frame = shown_frame(hand, 0);
+  std::vector<std::uint8_t> flags(hand.mesh.vertex_count);
+  decoder.copy_flags(flags);
+  decoder.copy_positions(frame.positions.data());
+  frame.values.resize(flags.size());
+  importance_values(flags, frame.values);
+  return draw(hand, frame, {}, ColourMap::kFlags);
+}
+
+Image draw_cost() {
+  const Sequence cloth = corpus_sequence("cloth", 2000);
+  ShownFrame frame = shown_frame(cloth, kFrames - 1);
+  frame.values = cost_values(cloth.mesh, cloth.frames);
+  std::vector<float> scratch;
+  scale_values(frame.values, value_at_share(frame.values, 0.95, scratch));
+  return draw(cloth, frame, {});
+}
+
+Image draw_sheet() {
+  const Sequence hand = corpus_sequence("hand", 1600);
+  PicturePainter painter(kWidth, kHeight, {}, false);
+  const std::vector<Cell> cells = sheet_cells(kWidth, kHeight, 3, 2);
+  const Bounds bounds = bounds_of(hand);
+  painter.set_scene(bounds, UpAxis::kY,
+                    camera_for(bounds, static_cast<double>(cells[0].width) / cells[0].height));
+  painter.begin();
+  const std::vector<std::uint64_t> chosen = spread_evenly(kFrames, cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    painter.draw(shown_frame(hand, chosen[i]), PicturePainter::Which::kShown, ColourMap::kViridis, cells[i]);
+  }
+  return painter.finish();
+}
+
+constexpr std::array<StoredPicture, 6> kPictures = {{{"smooth", draw_smooth},
+                                                     {"flat", draw_flat},
+                                                     {"wireframe", draw_wireframe},
+                                                     {"importance", draw_importance},
+                                                     {"cost", draw_cost},
+                                                     {"sheet", draw_sheet}}};
+
+}  // namespace
+
+std::span<const StoredPicture> stored_pictures() {
+  return kPictures;
+}
+
+Image draw_hand(std::size_t frame) {
+  const Sequence hand = corpus_sequence("hand", 1600);
+  return draw(hand, shown_frame(hand, frame), {});
+}
+
+Image draw_hand_without_some_faces() {
+  const Sequence hand = corpus_sequence("hand", 1600);
+  ShownFrame frame = shown_frame(hand, 5);
+  Mesh holed = hand.mesh;
+  // One face in a hundred, all over the hand, so that some of them are in sight.
+  for (std::size_t f = 0; f < holed.faces.size(); f += 100) holed.faces[f] = {0, 0, 0};
+  frame.mesh = std::make_shared<const Mesh>(std::move(holed));
+  return draw(hand, frame, {});
+}
+
+Image draw_hand_in_another_colour() {
+  const Sequence hand = corpus_sequence("hand", 1600);
+  Style style;
+  style.surface.red -= 0.06F;
+  return draw(hand, shown_frame(hand, 5), style);
+}
+
+}  // namespace tvg::cli::testing

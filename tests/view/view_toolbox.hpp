@@ -1,0 +1,36 @@
+#pragma once
+#include "player/render/picture.hpp"
+
+#include <functional>
+#include <optional>
+
+#include <tvg/sequence.hpp>
+
+namespace tvg::cli::testing {
+
+inline constexpr int kWidth = 256;
+inline constexpr int kHeight = 192;
+
+/// A frame of a sequence in memory, as the painter takes it.
+inline ShownFrame shown_frame(const Sequence& sequence, std::size_t number) {
+  ShownFrame frame;
+  frame.number = number;
+  frame.mesh = std::make_shared<const Mesh>(sequence.mesh);
+  frame.positions = sequence.frames.at(number);
+  return frame;
+}
+
+/// The camera of all test pictures: the whole sequence, seen from where users see it first.
+inline OrbitCamera camera_for(const Bounds& bounds, double aspect) {
+  OrbitCamera camera;
+  camera.fit_closely(bounds, UpAxis::kY, aspect);
+  return camera;
+}
+
+inline Bounds bounds_of(const Sequence& sequence) {
+  Bounds bounds;
+  for (const FramePositions& frame : sequence.frames) bounds.extend(frame);
+  return bounds;
+}
+
+}  // namespace tvg::cli::testing
