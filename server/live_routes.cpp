@@ -149,6 +149,9 @@ void LiveRoutes::publish(const httplib::Request& request, httplib::Response& res
   if (!status.ok()) {
     log_end(name, made, status.error().describe());
     answer(response, status_of(status.error().code), status.error().describe());
+  } else if (server_.abandoning()) {
+    log_end(name, made, "the server is ending");
+    answer(response, 503, "the server is ending");
   } else if (!all_read) {
     log_end(name, made, "the connection was lost or idle for too long");
     answer(response, 400, "the upload was cut off or idle for too long");

@@ -123,12 +123,13 @@ class StreamServer::Implementation {
     http_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
       return route(request, response) ? Answer::Handled : Answer::Unhandled;
     });
-    http_.set_expect_100_continue_handler(
-        [this](const httplib::Request& request, httplib::Response& response) {
-          const bool upload = request.method == "PUT" || request.method == "POST";
-          if (upload && options_.live && live_.refuse_upload(request, response)) return response.status;
-          return 100;
-        });
+    http_.set_expect_100_continue_handler([this](const httplib::Request& request,
+                                                 httplib::Response& response) {
+      // Refused here, an upload is not even sent.
+      const bool sends = request.method != "GET" && request.method != "HEAD" && request.method != "OPTIONS";
+      if (sends && route(request, response)) return response.status;
+      return 100;
+    });
     const auto publish = [this](const httplib::Request& request, httplib::Response& response,
                                 const httplib::ContentReader& read_content) {
       live_.publish(request, response, read_content);
