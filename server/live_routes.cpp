@@ -61,6 +61,7 @@ class ViewerBody {
   ViewerBody& operator=(const ViewerBody&) = delete;
 
   bool write_some(httplib::DataSink& sink) {
+    if (sink.is_writable && !sink.is_writable()) return false;  // gone while there was nothing to write
     const auto write = [&sink](std::span<const std::uint8_t> bytes) { return write_pieces(sink, bytes); };
     const LiveViewer::Step step = viewer_.step(write, kPatience);
     if (step == LiveViewer::Step::kDone) sink.done();
