@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -33,6 +34,17 @@ void read_address(const sockaddr_storage& address, std::string& ip, int& port) {
 }
 
 }  // namespace
+
+Connection::Connection(socket_t socket, std::chrono::milliseconds time_limit,
+                       const std::atomic<bool>& stopping)
+    : socket_(socket), time_limit_(time_limit), stopping_(stopping) {
+#ifdef TCP_NOTSENT_LOWAT
+  // What a viewer does not take must not queue up in the system by the megabyte: it would never be late
+  // enough to skip.
+  const int most_unsent = 1 << 17;
+  ::setsockopt(socket_, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof most_unsent);
+#endif
+}
 
 Connection::~Connection() {
   ::close(socket_);

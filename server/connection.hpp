@@ -15,8 +15,7 @@ class Connection final : public httplib::Stream {
  public:
   static constexpr std::size_t kMostHeadBytes = std::size_t{1} << 15;
 
-  Connection(socket_t socket, std::chrono::milliseconds time_limit, const std::atomic<bool>& stopping)
-      : socket_(socket), time_limit_(time_limit), stopping_(stopping) {}
+  Connection(socket_t socket, std::chrono::milliseconds time_limit, const std::atomic<bool>& stopping);
   ~Connection() override;
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
