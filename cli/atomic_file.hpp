@@ -32,6 +32,9 @@ class AtomicFile {
   void write(const void* data, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
+  /// Hands what is buffered to the system, for a reader at the other end of a pipe.
+  void flush();
+
   /// Replaces bytes [offset, offset + size), which have been written before.
   void overwrite(std::uint64_t offset, const void* data, std::size_t size);
 
@@ -47,7 +50,6 @@ class AtomicFile {
 
  private:
   void open_temporary(const std::string& target);
-  void flush();
   void write_at(std::uint64_t offset, const char* data, std::size_t size);
   [[noreturn]] void fail(const std::string& what, int error_number) const;
 

@@ -1,9 +1,10 @@
-#include "cli/atomic_file.hpp"
 #include "cli/commands.hpp"
 #include "cli/option_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "encoder/importers/open_source.hpp"
+#include "encoder/live_source.hpp"
+#include "encoder/stream_output.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,6 +21,8 @@ namespace tvg::cli {
 namespace {
 
 constexpr int kMostBits = 24;
+constexpr std::uint32_t kLiveGopFrames = 15;  // who joins a live stream waits half a second at most
+constexpr double kUsualFrameRate = 30;
 
 struct EncodeArguments {
   std::vector<std::string> inputs;
@@ -32,9 +35,11 @@ struct EncodeArguments {
   double alpha = Importance().alpha;
   std::string predictor = "elp";
   std::string mode = "elp";
-  std::uint32_t gop = EncodeOptions().gop_frames;
+  std::optional<std::uint32_t> gop;
   unsigned threads = 0;
   bool reorder = false;
+  bool live = false;
+  bool loop = false;
   bool quiet = false;
   std::string fps;
   std::string name;
@@ -83,10 +88,11 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
       {"time", Predictor::kTime},
       {"elp",
        Predictor::kElp}}.at(arguments.predictor);
-  options.gop_frames = arguments.gop;
+  options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : options.gop_frames);
   options.keep_vertex_order = !arguments.reorder;
   options.threads =
       arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
+  if (arguments.live) options.threads = 1;  // with more, a GOP would wait for those that follow it
   options.metadata = metadata_of(arguments);
   return options;
 }
@@ -114,9 +120,44 @@ class WatchedSource final : public FrameSource {
   std::optional<Error> error_;
 };
 
+/// How the frames of a live stream come: a pipe's when they come, others at their rate.
+LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata) {
+  LiveInput input;
+  input.open_ended =
+      std::find(arguments.inputs.begin(), arguments.inputs.end(), "-") != arguments.inputs.end();
+  input.loop = arguments.loop;
+  if (input.open_ended) {
+    if (input.loop) throw ToolError(ExitStatus::kUsage, "--loop needs a file: a pipe cannot be read twice");
+    return input;
+  }
+  const auto known = metadata.find("fps");
+  const std::string fps =
+      !arguments.fps.empty() ? arguments.fps : (known != metadata.end() ? known->second : "");
+  input.pace = fps.empty() ? kUsualFrameRate : parse_frame_rate(fps);
+  if (!input.pace) {
+    throw ToolError(ExitStatus::kUsage,
+                    fmt::format("--live needs a frame rate such as 30 or 30000/1001, not {}", fps));
+  }
+  return input;
+}
+
+void print_report(const EncodeArguments& arguments, const EncodeReport& report) {
+  if (report.box_of_each_gop && !arguments.live) {
+    fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
+  }
+  const std::uint64_t raw = 12 * report.frames * report.vertices;
+  fmt::print(
+      stderr,
+      "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
+      arguments.output == "-" ? "standard output" : arguments.output, report.frames, report.vertices,
+      report.gops, readable_bytes(report.bytes),
+      bits_per_coordinate(report.bytes, report.vertices, report.frames),
+      static_cast<double>(raw) / static_cast<double>(report.bytes));
+}
+
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
-  SourceSpec spec{arguments.inputs, {}};
+  SourceSpec spec{arguments.inputs, {}, arguments.live};
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     options.first_frame = spec.frames->first;
@@ -125,35 +166,32 @@ void run_encode(const EncodeArguments& arguments) {
   if (!arguments.quiet) {
     for (const std::string& note : opened.notes) fmt::print(stderr, "note: {}\n", note);
   }
+  std::unique_ptr<LiveSource> live;
+  if (arguments.live) {
+    live = std::make_unique<LiveSource>(*opened.source, live_input(arguments, opened.source->metadata()));
+  }
 
-  AtomicFile file(arguments.output);
-  const auto sink = [&file](std::span<const std::uint8_t> bytes) {
-    file.write(bytes.data(), bytes.size());
+  const std::unique_ptr<StreamOutput> output = open_stream_output(arguments.output, arguments.live);
+  const auto sink = [&output](std::span<const std::uint8_t> bytes) {
+    output->write(bytes);
     return Status();
   };
   ProgressBar bar("encoding", arguments.quiet);
   const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
     bar.update(frames, total);
   };
-  WatchedSource source(*opened.source);
+  WatchedSource source(live != nullptr ? *live : *opened.source);
   const Result<EncodeReport> report = encode(source, options, sink, progress);
   if (source.error()) throw tool_error(*source.error());
   if (!report) throw tool_error(fmt::format("{}", fmt::join(arguments.inputs, ", ")), report.error());
-  file.finish();
+  output->finish();
 
   if (arguments.quiet) return;
   bar.clear();
-  if (report->box_of_each_gop) {
-    fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
+  if (live != nullptr && live->cut_short()) {
+    fmt::print(stderr, "note: {}: that frame is left out\n", *live->cut_short());
   }
-  const std::uint64_t raw = 12 * report->frames * report->vertices;
-  fmt::print(
-      stderr,
-      "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
-      arguments.output == "-" ? "standard output" : arguments.output, report->frames, report->vertices,
-      report->gops, readable_bytes(report->bytes),
-      bits_per_coordinate(report->bytes, report->vertices, report->frames),
-      static_cast<double>(raw) / static_cast<double>(report->bytes));
+  print_report(arguments, *report);
 }
 
 }  // namespace
@@ -167,7 +205,9 @@ void add_encode_command(CLI::App& tool) {
           "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
           "files: a folder or a pattern (walk_%04d.obj, walk_####.obj)")
       ->required();
-  command.add_option("-o,--output", arguments->output, "the stream to write; - for standard output")
+  command
+      .add_option("-o,--output", arguments->output,
+                  "the stream to write; - for standard output; an http or https URL for an upload by PUT")
       ->required();
   command.add_option("--frames", arguments->frames, "encode frames A-B only, counted from 0");
   auto* bits = command
@@ -194,16 +234,26 @@ void add_encode_command(CLI::App& tool) {
   command.add_option("--predictor", arguments->predictor, "what vertices are predicted from")
       ->check(CLI::IsMember({"space", "time", "elp"}))
       ->capture_default_str();
-  command.add_option("--gop", arguments->gop, "frames that can be decoded on their own")
-      ->check(CLI::Range(1, 65536))
-      ->capture_default_str();
+  command
+      .add_option("--gop", arguments->gop,
+                  "frames that can be decoded on their own (default 50; with --live 15)")
+      ->check(CLI::Range(1, 65536));
   command.add_flag("--reorder", arguments->reorder,
                    "give up the vertex order, which saves about a byte per vertex");
   command.add_option("--fps", arguments->fps, "frames per second, kept with the stream (30, 30000/1001)");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");
-  command.add_option("--threads", arguments->threads, "GOPs encoded at a time (default: one per processor)");
+  auto* threads = command.add_option("--threads", arguments->threads,
+                                     "GOPs encoded at a time (default: one per processor)");
+  auto* live =
+      command
+          .add_flag("--live", arguments->live,
+                    "send each GOP as soon as it is complete: frames from a pipe as they come, until "
+                    "it ends; those of a file at its frame rate (--fps, or 30)")
+          ->excludes(threads);
+  command.add_flag("--loop", arguments->loop, "with --live: begin the file again at its end, until stopped")
+      ->needs(live);
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] { run_encode(*arguments); });
 }

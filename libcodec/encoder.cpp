@@ -161,18 +161,6 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
   return std::optional(box);
 }
 
-Status write_start(StreamWriter& writer, const StreamLimits& limits, const Metadata& metadata,
-                   Bytes mesh_payload) {
-  if (Status status = writer.write(kSignature); !status.ok()) return status;
-  if (Status status = writer.write(write_chunk(kHeadChunk, false, write_head(limits))); !status.ok())
-    return status;
-  if (!metadata.empty()) {
-    const std::vector<std::uint8_t> chunk = write_chunk(kMetadataChunk, true, write_metadata(metadata));
-    if (Status status = writer.write(chunk); !status.ok()) return status;
-  }
-  return writer.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh_payload));
-}
-
 /// The encoding pipeline: frames → GOPs → chunks.
 Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                                     const EncodeProgress& progress) {
@@ -187,7 +175,8 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
   if (write_metadata(metadata).size() > kMaxSmallPayload)
     return invalid_argument("the metadata is above 1 MiB");
   StreamWriter writer(sink);
-  if (Status status = write_start(writer, limits, metadata, mesh.payload); !status.ok())
+  if (Status status = writer.write_start(limits, metadata); !status.ok()) return status.error();
+  if (Status status = writer.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh.payload)); !status.ok())
     return status.error();
 
   GopQueue queue(writer, options.threads, progress, source.frame_count());

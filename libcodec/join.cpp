@@ -12,8 +12,6 @@ namespace tvg {
 
 namespace {
 
-constexpr std::size_t kMostMetadataBytes = std::size_t{1} << 20;
-
 Error invalid_argument(std::string message) {
   return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
 }
@@ -67,21 +65,15 @@ class Joiner {
       limits.packet_bytes = std::max(limits.packet_bytes, other.packet_bytes);
     }
     limits.decoder_memory = decoder_memory_needed(limits);
-    if (Status status = writer_.write(kSignature); !status.ok()) return status;
-    if (Status status = writer_.write(write_chunk(kHeadChunk, false, write_head(limits))); !status.ok())
-      return status;
-
     const Metadata metadata = merge_metadata();
-    if (metadata.empty()) return {};
-    const std::vector<std::uint8_t> payload = write_metadata(metadata);
-    if (payload.size() > kMostMetadataBytes) {
+    if (write_metadata(metadata).size() > kMaxSmallPayload) {
       return Error{ErrorCode::kLimitExceeded,
                    "the metadata of all inputs together are too long for a stream",
                    {},
                    {},
                    "§4.2"};
     }
-    return writer_.write(write_chunk(kMetadataChunk, true, payload));
+    return writer_.write_start(limits, metadata);
   }
 
   Metadata merge_metadata() {

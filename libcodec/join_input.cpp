@@ -1,5 +1,7 @@
 #include "join_input.hpp"
 
+#include "container/stream_checks.hpp"
+
 #include <algorithm>
 
 namespace tvg {
@@ -117,13 +119,8 @@ Status JoinInputReader::use_head() {
   if (Status status = read_payload(kMostSmallChunkBytes); !status.ok()) return status;
   const Result<StreamHead> head = read_head(payload_);
   if (!head) return located(head.error());
-  const StreamLimits& declared = head->limits;
-  if (declared.vertices > caller_limits_.vertices || declared.faces > caller_limits_.faces ||
-      declared.frames_per_gop > caller_limits_.frames_per_gop ||
-      declared.packet_bytes > caller_limits_.packet_bytes ||
-      declared.decoder_memory > caller_limits_.memory) {
-    return fail(ErrorCode::kLimitExceeded, "the stream declares more than the limits set here allow", "§8.1");
-  }
+  if (Status status = check_declared(head->limits, caller_limits_); !status.ok())
+    return located(status.error());
   head_ = *head;
   return {};
 }
@@ -158,13 +155,9 @@ Result<bool> JoinInputReader::next_gop() {
 
 // format-spec §4.3
 Status JoinInputReader::use_mesh() {
-  const std::uint64_t most = 64 + 16 * (std::uint64_t{head_.limits.vertices} + head_.limits.faces);
-  if (Status status = read_payload(most); !status.ok()) return status;
-  const Result<MeshLayout> mesh = read_mesh(payload_);
-  if (!mesh) return located(mesh.error());
-  if (mesh->vertex_count > head_.limits.vertices || mesh->face_count > head_.limits.faces) {
-    return fail(ErrorCode::kLimitExceeded, "a mesh is larger than the stream's head declares", "§4.3");
-  }
+  if (Status status = read_payload(most_mesh_bytes(head_.limits)); !status.ok()) return status;
+  if (Status status = check_mesh_payload(payload_, head_.limits); !status.ok())
+    return located(status.error());
   mesh_.swap(payload_);
   seen_.push_back({IndexEntry::Kind::kMesh, chunk_offset_, 0});
   return {};
@@ -192,11 +185,8 @@ Status JoinInputReader::begin_gop() {
   if (Status status = read(size + kChunkChecksumSize, bytes); !status.ok()) return status;
   const Bytes packet = Bytes(bytes).subspan(kChunkHeaderSize + size_bytes, static_cast<std::size_t>(size));
   if (ByteReader(Bytes(bytes).last(kChunkChecksumSize)).u32() != checksum(packet)) return damaged;
-  const Result<GopHeader> header = read_gop_header(packet);
+  const Result<GopHeader> header = check_gop_header(packet, head_.limits);
   if (!header) return located(header.error());
-  if (header->frame_count > head_.limits.frames_per_gop) {
-    return fail(ErrorCode::kLimitExceeded, "a GOP has more frames than the stream's head declares", "§4.5.1");
-  }
   gop_frames_ = header->frame_count;
   gop_left_ = chunk_.length - (bytes.size() - kChunkHeaderSize);
   has_header_ = false;

@@ -67,18 +67,23 @@ class FrameRate {
 
 class CacheSource final : public SkippableSource {
  public:
-  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, const std::string& mesh_file)
+  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, const std::string& mesh_file,
+              bool open_ended)
       : file_(path),
         mesh_(std::move(mesh)),
         metadata_(std::move(metadata)),
         mesh_file_(mesh_file),
-        named_pc2_(has_suffix(path, ".pc2")) {
+        named_pc2_(has_suffix(path, ".pc2")),
+        open_ended_(open_ended && !file_.size()) {
     read_header();
   }
 
   const Mesh& mesh() const override { return mesh_; }
   Metadata metadata() const override { return metadata_; }
-  std::optional<std::uint64_t> frame_count() const override { return layout_.frames; }
+  std::optional<std::uint64_t> frame_count() const override {
+    if (open_ended_) return std::nullopt;
+    return layout_.frames;
+  }
   Result<bool> read_frame(std::span<float> positions) override;
   Status skip_frames(std::uint64_t count) override;
   bool rewind() override;
@@ -98,6 +103,7 @@ class CacheSource final : public SkippableSource {
                       fmt::format("{} ends at byte {} inside {}", file_.name(), size, place));
   }
   std::string promise() const {
+    if (open_ended_) return fmt::format("a frame has {} bytes", layout_.frame_size());
     return fmt::format("its header promises {} frames = {} bytes", layout_.frames, layout_.file_size());
   }
 
@@ -106,6 +112,7 @@ class CacheSource final : public SkippableSource {
   Metadata metadata_;
   std::string mesh_file_;
   bool named_pc2_;
+  bool open_ended_;  // of a PC2 cache: frames come until the input ends
   CacheLayout layout_;
   std::uint64_t next_ = 0;  // frame
 };
@@ -128,6 +135,7 @@ void CacheSource::read_header() {
     read_pc2_header(header);
     check_size();
   } else {
+    open_ended_ = false;  // the table of times has an end
     layout_.frames = load<std::uint32_t>(header.data(), true);
     layout_.points = load<std::uint32_t>(header.data() + 4, true);
     check_counts(load<std::int32_t>(header.data() + 4, true), load<std::int32_t>(header.data(), true));
@@ -157,6 +165,7 @@ void CacheSource::check_counts(std::int64_t points, std::int64_t frames) const {
         "needs the mesh it was made with",
         format, points, frames, mesh_file_, mesh_.vertex_count));
   }
+  if (open_ended_) return;
   if (frames < 0) fail(fmt::format("read as {}, its header says {} frames", format, frames));
   if (frames == 0) fail("it holds no frames");
 }
@@ -200,7 +209,7 @@ Result<bool> CacheSource::read_frame(std::span<float> positions) {
 }
 
 bool CacheSource::read_positions(std::span<float> positions) {
-  if (next_ == layout_.frames) {
+  if (next_ == layout_.frames && !open_ended_) {
     char extra = 0;
     if (!file_.size() && file_.read(&extra, 1) != 0) {
       fail(
@@ -209,6 +218,7 @@ bool CacheSource::read_positions(std::span<float> positions) {
     return false;
   }
   const std::size_t got = file_.read(positions.data(), positions.size_bytes());
+  if (got == 0 && open_ended_) return false;
   if (got < positions.size_bytes()) {
     fail_at_end(layout_.data_offset + next_ * layout_.frame_size() + got,
                 fmt::format("frame {}; {}", next_, promise()));
@@ -261,8 +271,8 @@ bool CacheSource::rewind() {
 }  // namespace
 
 std::unique_ptr<SkippableSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
-                                            const std::string& mesh_file) {
-  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file);
+                                            const std::string& mesh_file, bool open_ended) {
+  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, open_ended);
 }
 
 }  // namespace tvg::cli

@@ -10,9 +10,10 @@ namespace tvg::cli {
 /// disk one at a time. "-" is standard input, which cannot be rewound. `mesh` gives the connectivity and
 /// `metadata` what else is known; `mesh_file` names the mesh in messages. An MDD cache with evenly spaced
 /// times adds its `fps`; a PC2 cache does not, because programs disagree on what its sample rate means.
+/// `open_ended` is as in SourceSpec.
 /// Throws ImportError: kIo, kInvalidInput (the vertex counts differ, no frames, more bytes than promised),
 /// kTruncated (fewer bytes than promised).
 std::unique_ptr<SkippableSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
-                                            const std::string& mesh_file);
+                                            const std::string& mesh_file, bool open_ended = false);
 
 }  // namespace tvg::cli

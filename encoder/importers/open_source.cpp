@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 
 namespace tvg::cli {
 
@@ -65,7 +66,8 @@ std::string mesh_beside(const std::string& cache) {
 }
 
 OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string& cache,
-                                 const std::optional<FrameRange>& frames) {
+                                 const SourceSpec& spec) {
+  const std::optional<FrameRange>& frames = spec.frames;
   std::error_code ignored;
   if (fs::is_directory(mesh_path, ignored) ||
       (parse_frame_pattern(mesh_path) && !fs::exists(mesh_path, ignored))) {
@@ -75,9 +77,10 @@ OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string
   Metadata metadata;
   if (!welded.mesh.name.empty()) metadata.emplace("name", welded.mesh.name);
   Mesh mesh{static_cast<std::uint32_t>(welded.mesh.vertex_count()), std::move(welded.mesh.faces)};
-  auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path);
+  auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path, spec.open_ended);
   if (!frames) return {std::move(source), std::move(welded.notes)};
-  check_frame_range(*frames, source->frame_count().value(), cache == "-" ? "standard input" : cache);
+  const std::uint64_t count = source->frame_count().value_or(std::numeric_limits<std::uint64_t>::max());
+  check_frame_range(*frames, count, cache == "-" ? "standard input" : cache);
   return {std::make_unique<FrameRangeSource>(std::move(source), *frames), std::move(welded.notes)};
 }
 
@@ -124,7 +127,7 @@ OpenedSource open_source(const SourceSpec& spec) {
   }
   if (mesh.empty() && cache.empty()) fail_usage(fmt::format("no input is given: {}", kKnownFormats));
   if (mesh.empty()) fail_cache_alone(cache);
-  return cache.empty() ? open_meshes(mesh, spec.frames) : open_mesh_and_cache(mesh, cache, spec.frames);
+  return cache.empty() ? open_meshes(mesh, spec.frames) : open_mesh_and_cache(mesh, cache, spec);
 }
 
 }  // namespace tvg::cli

@@ -18,6 +18,10 @@ struct SourceSpec {
   std::vector<std::string> inputs;
   /// The frames wanted, counted from 0 whatever the numbers in the files' names; all where absent.
   std::optional<FrameRange> frames;
+  /// A PC2 cache that comes through a pipe goes on until the pipe ends, whatever number of frames its header
+  /// says. Its frame_count() is then unknown, and read_frame() is kTruncated where the pipe ends inside a
+  /// frame.
+  bool open_ended = false;
 };
 
 struct OpenedSource {

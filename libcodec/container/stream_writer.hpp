@@ -19,6 +19,14 @@ class StreamWriter {
     offset_ += bytes.size();
     return sink_(bytes);
   }
+  /// Signature, head and, where there are any, metadata.
+  Status write_start(const StreamLimits& limits, const Metadata& metadata) {
+    if (Status status = write(kSignature); !status.ok()) return status;
+    if (Status status = write(write_chunk(kHeadChunk, false, write_head(limits))); !status.ok())
+      return status;
+    if (metadata.empty()) return {};
+    return write(write_chunk(kMetadataChunk, true, write_metadata(metadata)));
+  }
   Status write_mesh_chunk(Bytes chunk) {
     index_.push_back({IndexEntry::Kind::kMesh, offset_, 0});
     return write(chunk);

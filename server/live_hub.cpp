@@ -1,0 +1,195 @@
+#include "server/live_hub.hpp"
+
+#include <utility>
+
+namespace tvg::cli {
+
+bool LiveStream::add(StreamPart part) {
+  const std::lock_guard lock(mutex_);
+  if (ended_) return false;
+  bytes_ += part.chunk.size();
+  switch (part.kind) {
+    case StreamPart::Kind::kHead:
+      start_.limits = part.limits;
+      break;
+    case StreamPart::Kind::kMetadata:
+      start_.metadata = std::move(part.metadata);
+      break;
+    case StreamPart::Kind::kMesh:
+      mesh_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk));
+      break;
+    case StreamPart::Kind::kGop:
+      newest_.push_back({gops_, mesh_,
+                         std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk)),
+                         part.frame_count});
+      ++gops_;
+      frames_ += part.frame_count;
+      keep_newest();
+      break;
+    case StreamPart::Kind::kEnd:
+      ended_ = true;
+      break;
+  }
+  changed_.notify_all();
+  return true;
+}
+
+void LiveStream::keep_newest() {
+  std::uint64_t bytes = 0;
+  std::size_t kept = 0;
+  for (auto gop = newest_.rbegin(); gop != newest_.rend() && kept < kKeptGops; ++gop, ++kept) {
+    bytes += gop->chunk->size();
+    if (kept > 0 && bytes > kept_bytes_) break;
+  }
+  newest_.erase(newest_.begin(), newest_.end() - static_cast<std::ptrdiff_t>(kept));
+}
+
+void LiveStream::end() {
+  const std::lock_guard lock(mutex_);
+  ended_ = true;
+  changed_.notify_all();
+}
+
+std::optional<LiveStream::Start> LiveStream::wait_for_start(std::chrono::milliseconds time) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, time, [this] { return mesh_ != nullptr || ended_; });
+  if (mesh_ == nullptr) return std::nullopt;
+  return start_;
+}
+
+LiveStream::Wait LiveStream::next(std::optional<std::uint64_t> wanted, std::chrono::milliseconds time,
+                                  LiveGop& gop) {
+  std::unique_lock lock(mutex_);
+  const auto available = [&] { return !newest_.empty() && newest_.back().number >= wanted.value_or(0); };
+  changed_.wait_for(lock, time, [&] { return available() || ended_; });
+  if (!available()) return ended_ ? Wait::kEnded : Wait::kNothingYet;
+  const std::uint64_t oldest = newest_.front().number;
+  const bool in_time = wanted && *wanted >= oldest;
+  gop = in_time ? newest_[static_cast<std::size_t>(*wanted - oldest)] : newest_.back();
+  return Wait::kGop;
+}
+
+void LiveStream::viewer_joined() {
+  const std::lock_guard lock(mutex_);
+  ++viewers_;
+}
+
+void LiveStream::viewer_left() {
+  const std::lock_guard lock(mutex_);
+  --viewers_;
+}
+
+LiveStatus LiveStream::status() const {
+  const std::lock_guard lock(mutex_);
+  return {"",
+          viewers_,
+          frames_,
+          gops_,
+          bytes_,
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(),
+          std::chrono::system_clock::to_time_t(since_)};
+}
+
+LivePublisher::LivePublisher(LiveHub& hub, std::string name, std::shared_ptr<LiveStream> stream,
+                             const RelayLimits& limits)
+    : hub_(hub), name_(std::move(name)), stream_(std::move(stream)), splitter_(limits) {}
+
+LivePublisher::~LivePublisher() {
+  hub_.remove(name_);
+  stream_->end();
+}
+
+Status LivePublisher::push(std::span<const std::uint8_t> bytes) {
+  if (Status status = splitter_.push(bytes); !status.ok()) return status;
+  for (;;) {
+    Result<std::optional<StreamPart>> part = splitter_.next();
+    if (!part) return part.error();
+    if (!*part) return {};
+    if (!stream_->add(std::move(**part))) return Error{ErrorCode::kIo, "the server is ending", {}, {}, ""};
+  }
+}
+
+std::optional<PublishRefusal> LiveHub::refusal_locked(const std::string& name) const {
+  if (ending_) return PublishRefusal::kEnding;
+  if (streams_.contains(name)) return PublishRefusal::kNameTaken;
+  if (streams_.size() >= most_streams_) return PublishRefusal::kTooMany;
+  return std::nullopt;
+}
+
+std::optional<PublishRefusal> LiveHub::refusal(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return refusal_locked(name);
+}
+
+std::variant<std::unique_ptr<LivePublisher>, PublishRefusal> LiveHub::publish(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  if (const auto refused = refusal_locked(name)) return *refused;
+  auto stream = std::make_shared<LiveStream>(limits_.chunk_bytes);
+  streams_.emplace(name, stream);
+  return std::make_unique<LivePublisher>(*this, name, std::move(stream), limits_);
+}
+
+void LiveHub::remove(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  streams_.erase(name);
+}
+
+std::shared_ptr<LiveStream> LiveHub::find(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = streams_.find(name);
+  return found == streams_.end() ? nullptr : found->second;
+}
+
+std::vector<LiveStatus> LiveHub::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<LiveStatus> result;
+  for (const auto& [name, stream] : streams_) {
+    result.push_back(stream->status());
+    result.back().name = name;
+  }
+  return result;
+}
+
+void LiveHub::end_all() {
+  const std::lock_guard lock(mutex_);
+  ending_ = true;
+  for (const auto& [name, stream] : streams_) stream->end();
+}
+
+LiveViewer::LiveViewer(std::shared_ptr<LiveStream> stream, LiveStream::Start start)
+    : stream_(std::move(stream)),
+      start_(std::move(start)),
+      assembler_([this](std::span<const std::uint8_t> bytes) { return (*sink_)(bytes); }) {
+  stream_->viewer_joined();
+}
+
+LiveViewer::~LiveViewer() {
+  stream_->viewer_left();
+}
+
+LiveViewer::Step LiveViewer::step(const ByteSink& sink, std::chrono::milliseconds time) {
+  sink_ = &sink;
+  bool done = false;
+  if (!write_next(time, done).ok()) return Step::kFailed;
+  return done ? Step::kDone : Step::kGoOn;
+}
+
+Status LiveViewer::write_next(std::chrono::milliseconds time, bool& done) {
+  if (assembler_.bytes() == 0) return assembler_.begin(start_.limits, start_.metadata);
+  LiveGop gop;
+  const bool full = assembler_.gops() >= kMostGops;
+  const LiveStream::Wait waited = full ? LiveStream::Wait::kEnded : stream_->next(wanted_, time, gop);
+  if (waited == LiveStream::Wait::kNothingYet) return {};
+  if (waited == LiveStream::Wait::kEnded) {
+    done = true;
+    return assembler_.end();
+  }
+  if (gop.mesh != mesh_) {
+    mesh_ = gop.mesh;
+    if (Status status = assembler_.write_mesh(*mesh_); !status.ok()) return status;
+  }
+  wanted_ = gop.number + 1;
+  return assembler_.write_gop(*gop.chunk, gop.frame_count);
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,191 @@
+#pragma once
+#include "server/stream_server.hpp"
+#include "tests/codec/codec_toolbox.hpp"
+#include "tests/importers/io_toolbox.hpp"
+
+#include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <httplib.h>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace tvg::cli::testing {
+
+/// A server in this process on a port of its own, and clients for it.
+class RunningServer {
+ public:
+  explicit RunningServer(const std::string& folder, const std::function<void(ServerOptions&)>& change = {}) {
+    ServerOptions options;
+    options.folder = folder;
+    options.port = 0;
+    if (change) change(options);
+    server_ = std::make_unique<StreamServer>(std::move(options));
+    server_->start();
+  }
+
+  StreamServer& operator*() { return *server_; }
+  int port() const { return server_->port(); }
+  httplib::Client client() const {
+    httplib::Client client("127.0.0.1", server_->port());
+    client.set_read_timeout(10);
+    return client;
+  }
+
+ private:
+  std::unique_ptr<StreamServer> server_;
+};
+
+/// A stream of `gops` GOPs of two frames.
+inline test::Stream make_live_stream(std::size_t gops, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  const Sequence sequence = test::random_sequence(test::grid(6, 5), 2 * gops, random);
+  EncodeOptions options;
+  options.gop_frames = 2;
+  return test::encode_sequence(sequence, options);
+}
+
+/// Where each GOP of a stream ends, in bytes; [0] is where the first begins.
+inline std::vector<std::size_t> gop_borders(const test::Stream& stream) {
+  std::vector<std::size_t> borders;
+  for (const IndexEntry& entry : test::decode_stream(stream).index) {
+    if (entry.kind == IndexEntry::Kind::kGop) borders.push_back(static_cast<std::size_t>(entry.offset));
+  }
+  const Result<ByteRange> index = locate_index(std::span(stream).last(kTailBytes), stream.size());
+  EXPECT_TRUE(index);
+  borders.push_back(static_cast<std::size_t>(index->offset));
+  return borders;
+}
+
+inline std::string text_of(const test::Stream& stream, std::size_t begin, std::size_t end) {
+  return {stream.begin() + static_cast<std::ptrdiff_t>(begin),
+          stream.begin() + static_cast<std::ptrdiff_t>(end)};
+}
+
+inline test::DecodedStream decode_text(const std::string& bytes) {
+  return test::decode_stream(test::Stream(bytes.begin(), bytes.end()));
+}
+
+/// Waits for what other threads bring about; false after ten seconds.
+inline bool eventually(const std::function<bool()>& condition) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+/// An upload whose bytes the test gives piece by piece.
+class Upload {
+ public:
+  Upload(const RunningServer& server, const std::string& path, bool post = false)
+      : client_(server.client()), thread_([this, path, post] {
+          const auto give = [this](std::size_t, httplib::DataSink& sink) { return give_bytes(sink); };
+          auto answer =
+              post ? client_.Post(path, give, "model/vnd.tvg") : client_.Put(path, give, "model/vnd.tvg");
+          if (answer) {
+            status_ = answer->status;
+            text_ = answer->body;
+          }
+        }) {}
+  ~Upload() {
+    if (thread_.joinable()) break_off();
+  }
+  Upload(const Upload&) = delete;
+  Upload& operator=(const Upload&) = delete;
+
+  void send(std::string bytes) { add({Step::kSend, std::move(bytes)}); }
+  /// The body is complete; waits for the answer.
+  void finish() {
+    add({Step::kFinish, {}});
+    thread_.join();
+  }
+  /// Closes the connection as a killed encoder's is closed.
+  void break_off() {
+    add({Step::kBreak, {}});
+    thread_.join();
+  }
+  /// 0 where there was no answer. After finish() or break_off().
+  int status() const { return status_; }
+  const std::string& text() const { return text_; }
+
+ private:
+  enum class Step { kSend, kFinish, kBreak };
+
+  void add(std::pair<Step, std::string> step) {
+    const std::lock_guard lock(mutex_);
+    steps_.push_back(std::move(step));
+    changed_.notify_all();
+  }
+  bool give_bytes(httplib::DataSink& sink) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return !steps_.empty(); });
+    const auto [step, bytes] = std::move(steps_.front());
+    steps_.pop_front();
+    if (step == Step::kBreak) return false;
+    if (step == Step::kSend) return sink.write(bytes.data(), bytes.size());
+    sink.done();
+    return true;
+  }
+
+  httplib::Client client_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::pair<Step, std::string>> steps_;
+  int status_ = 0;
+  std::string text_;
+  std::thread thread_;
+};
+
+/// Someone who watches a live stream until it ends.
+class Viewer {
+ public:
+  Viewer(const RunningServer& server, const std::string& path)
+      : client_(server.client()), thread_([this, path] {
+          const auto answer = client_.Get(path, [this](const char* data, std::size_t size) {
+            const std::lock_guard lock(mutex_);
+            bytes_.append(data, size);
+            return !leave_;
+          });
+          whole_ = static_cast<bool>(answer);
+          status_ = answer ? answer->status : 0;
+        }) {}
+  ~Viewer() {
+    if (!thread_.joinable()) return;
+    leave();
+  }
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  std::string received() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+  }
+  /// Waits for the end of the stream.
+  void wait() { thread_.join(); }
+  /// Closes the connection as a killed viewer's is closed.
+  void leave() {
+    leave_ = true;
+    client_.stop();
+    thread_.join();
+  }
+  /// Whether the answer came to a proper end. After wait().
+  bool whole() const { return whole_; }
+  int status() const { return status_; }
+
+ private:
+  httplib::Client client_;
+  mutable std::mutex mutex_;
+  std::string bytes_;
+  std::atomic<bool> leave_{false};
+  bool whole_ = false;
+  int status_ = 0;
+  std::thread thread_;
+};
+
+}  // namespace tvg::cli::testing
