@@ -63,14 +63,12 @@ void PicturePainter::label(const Cell& cell, const std::string& text) {
              text);
 }
 
-void PicturePainter::legend(const Legend& legend, bool lower_right) {
+void PicturePainter::legend(const Legend& legend, bool between) {
   if (list_ == nullptr) return;
   const float size = text_size(framebuffer_.height());
   TextPlace place{size, size, size};
-  if (lower_right) {
-    const TextExtent extent = legend_extent(legend, size);
-    place.x = static_cast<float>(framebuffer_.width()) - extent.width - 0.6F * size;
-    place.y = static_cast<float>(framebuffer_.height()) - extent.height - 0.6F * size;
+  if (between) {
+    place.x = (static_cast<float>(framebuffer_.width()) - legend_extent(legend, size).width) / 2;
   }
   draw_legend(*list_, place, legend);
 }

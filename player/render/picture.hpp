@@ -42,8 +42,8 @@ class PicturePainter {
   void clear(const Cell& cell);
   /// Text in the lower left corner of a cell.
   void label(const Cell& cell, const std::string& text);
-  /// The legend in the upper left corner of the picture, or in the lower right one.
-  void legend(const Legend& legend, bool lower_right);
+  /// The legend in the upper left corner of the picture, or between two cells side by side.
+  void legend(const Legend& legend, bool between);
   /// The picture, valid until the next begin().
   const Image& finish();
 

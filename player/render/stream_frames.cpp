@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace tvg::cli {
 
@@ -17,7 +18,7 @@ constexpr std::uint64_t kMostLost = 1U << 20;
 /// under their numbers; the first good one where there was none before.
 class StreamFrames final : public ShownFrames {
  public:
-  explicit StreamFrames(const ShownFramesSpec& spec) : spec_(spec) { open(); }
+  explicit StreamFrames(ShownFramesSpec spec) : spec_(std::move(spec)) { open(); }
 
   bool next(ShownFrame& frame) override {
     for (;;) {

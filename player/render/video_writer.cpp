@@ -27,12 +27,12 @@ struct VideoFormat {
 };
 
 const std::array<VideoFormat, 3>& video_formats() {
-  static const std::array<VideoFormat, 3> kFormats = {
+  static const std::array<VideoFormat, 3> formats = {
       {{".mp4",
         {"-c:v", "libx264", "-crf", "18", "-preset", "medium", "-movflags", "+faststart", "-f", "mp4"}},
        {".mkv", {"-c:v", "libx264", "-crf", "18", "-preset", "medium", "-f", "matroska"}},
        {".webm", {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"}}}};
-  return kFormats;
+  return formats;
 }
 
 std::vector<std::string> ffmpeg_arguments(const std::string& name, const std::string& target, int width,
@@ -55,6 +55,7 @@ std::vector<std::string> ffmpeg_arguments(const std::string& name, const std::st
 /// error number.
 int spawn(pid_t& process, const std::vector<std::string>& arguments, int input, int messages) {
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
   pointers.push_back(nullptr);
   posix_spawn_file_actions_t files;

@@ -103,7 +103,7 @@ ImageDifference compare_images(const Image& a, const Image& b, int limit) {
     }
     far += most > limit ? 1 : 0;
   }
-  const double pixels = std::max(1.0, static_cast<double>(a.pixels.size() / 4));
+  const double pixels = std::max(1.0, static_cast<double>(a.pixels.size()) / 4);
   return {static_cast<double>(sum) / (3 * pixels), static_cast<double>(far) / pixels};
 }
 

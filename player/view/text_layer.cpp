@@ -96,7 +96,7 @@ TextExtent legend_extent(const Legend& legend, float size) {
   width = std::max(width, beside_colour(flags ? legend.flagged : "0.00012 " + legend.units));
   if (flags) width = std::max(width, beside_colour(legend.plain));
   const float noted = legend.note.empty() ? 0 : 1.1F * size;
-  return {width + 1.4F * size, (flags ? 4.9F : 11.0F) * size + noted};
+  return {width + 1.4F * size, (flags ? 4.9F : 11.4F) * size + noted};
 }
 
 void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend) {
@@ -108,7 +108,7 @@ void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend)
   put(list, size, x, y, kInk, legend.title);
   y += 1.3F * size;
   if (!legend.note.empty()) put(list, 0.8F * size, x, y, kFaintInk, legend.note);
-  y += (legend.note.empty() ? 0.4F : 1.5F) * size;
+  y += (legend.note.empty() ? 0.4F : 1.8F) * size;
   if (legend.map == ColourMap::kFlags) {
     draw_swatch(list, x, y, size, map_colour(legend.map, 1), legend.flagged);
     draw_swatch(list, x, y + 1.4F * size, size, map_colour(legend.map, 0), legend.plain);
