@@ -96,7 +96,8 @@ std::string dump(const nlohmann::json& json) {
 
 std::string folder_listing(const fs::path& root, const fs::path& folder) {
   // From the root, with slashes at both ends.
-  const std::string place = folder == root ? "/" : "/" + folder.lexically_relative(root).string() + "/";
+  std::string place = "/";
+  if (folder != root) place.append(folder.lexically_relative(root).string()).append("/");
   std::vector<std::string> names;
   std::error_code error;
   bool complete = true;
