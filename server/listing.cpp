@@ -95,7 +95,9 @@ std::string dump(const nlohmann::json& json) {
 }  // namespace
 
 std::string folder_listing(const fs::path& root, const fs::path& folder) {
-  const std::string relative = folder == root ? "" : folder.lexically_relative(root).string() + "/";
+  // From the root, with slashes at both ends.
+  std::string place = "/";
+  if (folder != root) place.append(folder.lexically_relative(root).string()).append("/");
   std::vector<std::string> names;
   std::error_code error;
   bool complete = true;
@@ -111,7 +113,8 @@ std::string folder_listing(const fs::path& root, const fs::path& folder) {
   nlohmann::json entries = nlohmann::json::array();
   std::size_t examined = 0;
   for (const std::string& name : names) {
-    const std::string path = "/" + relative + name;
+    std::string path = place;
+    path += name;
     const std::optional<fs::path> target = resolve_in_folder(root, path);
     struct stat status {};
     if (!target || ::stat(target->c_str(), &status) != 0) continue;
@@ -128,7 +131,7 @@ std::string folder_listing(const fs::path& root, const fs::path& folder) {
     }
     entries.push_back(std::move(entry));
   }
-  return dump({{"folder", "/" + relative}, {"complete", complete}, {"entries", std::move(entries)}});
+  return dump({{"folder", place}, {"complete", complete}, {"entries", std::move(entries)}});
 }
 
 std::string live_listing(const std::vector<LiveStatus>& streams) {

@@ -67,12 +67,11 @@ class FrameRate {
 
 class CacheSource final : public SkippableSource {
  public:
-  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, const std::string& mesh_file,
-              bool open_ended)
+  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, std::string mesh_file, bool open_ended)
       : file_(path),
         mesh_(std::move(mesh)),
         metadata_(std::move(metadata)),
-        mesh_file_(mesh_file),
+        mesh_file_(std::move(mesh_file)),
         named_pc2_(has_suffix(path, ".pc2")),
         open_ended_(open_ended && !file_.size()) {
     read_header();

@@ -297,6 +297,55 @@ TEST(LiveLimits, OneClientMoreThanAllowedIs503AndTheOthersGoOn) {
   }));
 }
 
+TEST(LiveLimits, AViewerThatDoesNotReadIsCutOffAndTheOthersLoseNothing) {
+  const TemporaryFolder folder;
+  const RunningServer server(
+      folder.path(""), [](ServerOptions& options) { options.timeout = std::chrono::milliseconds(500); });
+  std::mt19937 random(3);
+  const Sequence sequence = test::random_sequence(test::grid(100, 80), 24, random);
+  EncodeOptions encode_options;
+  encode_options.gop_frames = 2;
+  encode_options.fine_bits = encode_options.coarse_bits = 20;
+  const test::Stream stream = test::encode_sequence(sequence, encode_options);
+  const std::vector<std::size_t> borders = gop_borders(stream);
+  const auto viewers = [&] {
+    auto list = server.client().Get("/live/");
+    const nlohmann::json streams = nlohmann::json::parse(list ? list->body : "{}")["streams"];
+    return streams.empty() ? std::size_t{0} : streams[0]["viewers"].get<std::size_t>();
+  };
+
+  Upload upload(server, "/live/cam");
+  upload.send(text_of(stream, 0, borders[1]));
+  ASSERT_TRUE(eventually([&] { return server.client().Head("/live/cam")->status == 200; }));
+  const int idle = ::socket(AF_INET, SOCK_STREAM, 0);
+  const int small = 4096;
+  ::setsockopt(idle, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(server.port()));
+  ASSERT_EQ(::connect(idle, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  const std::string request = "GET /live/cam HTTP/1.1\r\nHost: x\r\n\r\n";
+  ASSERT_EQ(::send(idle, request.data(), request.size(), MSG_NOSIGNAL), static_cast<ssize_t>(request.size()));
+  Viewer reads(server, "/live/cam");
+  ASSERT_TRUE(eventually([&] { return viewers() == 2; }));
+  // As fast as the one that reads takes them, and always sooner than an upload may pause.
+  for (std::size_t gop = 1; gop < 12; ++gop) {
+    upload.send(text_of(stream, borders[gop], borders[gop + 1]));
+    ASSERT_TRUE(eventually([&] { return reads.received().size() >= borders[gop + 1]; }));
+  }
+  const std::size_t middle = (borders.back() + stream.size()) / 2;
+  for (std::size_t at = borders.back(); viewers() > 1 && at < middle; ++at) {
+    upload.send(text_of(stream, at, at + 1));
+    std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  }
+  EXPECT_EQ(viewers(), 1U);
+  upload.break_off();
+  reads.wait();
+  EXPECT_EQ(decode_text(reads.received()).frames.size(), 24U);
+  ::close(idle);
+}
+
 TEST(LiveLimits, AnUploadThatStallsIsCutOffAndFreesItsName) {
   const TemporaryFolder folder;
   const RunningServer server(
