@@ -82,6 +82,26 @@ double parse_share(const std::string& text) {
   return *value / 100;
 }
 
+std::optional<double> parse_positive(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  if (!std::isfinite(value) || !(value > 0)) return std::nullopt;
+  return value;
+}
+
+std::optional<double> parse_frame_rate(std::string_view text) {
+  constexpr double kLowest = 0.01, kHighest = 1000;
+  const std::size_t slash = text.find('/');
+  const std::optional<double> above = parse_positive(text.substr(0, slash));
+  std::optional<double> below = 1.0;
+  if (slash != std::string_view::npos) below = parse_positive(text.substr(slash + 1));
+  if (!above || !below) return std::nullopt;
+  const double rate = *above / *below;
+  if (!(rate >= kLowest && rate <= kHighest)) return std::nullopt;
+  return rate;
+}
+
 std::optional<std::pair<int, int>> parse_count_pair(std::string_view text, int most) {
   const std::size_t at = text.find('x');
   if (at == std::string_view::npos) return std::nullopt;

@@ -31,6 +31,13 @@ StepPair parse_step(const std::string& text);
 /// "35%": 0.35.
 double parse_share(const std::string& text);
 
+/// A finite number above 0; nothing where the text is none.
+std::optional<double> parse_positive(std::string_view text);
+
+/// Frames per second, as metadata and options have them: "30", "29.97" or "30000/1001"; nothing where the
+/// text is no rate between 0.01 and 1000.
+std::optional<double> parse_frame_rate(std::string_view text);
+
 /// "4x3": two counts from 1 to `most`; nothing where the text is none.
 std::optional<std::pair<int, int>> parse_count_pair(std::string_view text, int most);
 

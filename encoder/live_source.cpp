@@ -1,33 +1,8 @@
 #include "encoder/live_source.hpp"
 
-#include <charconv>
-#include <cmath>
-#include <string_view>
 #include <thread>
 
 namespace tvg::cli {
-
-namespace {
-
-std::optional<double> parse_positive(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  if (!whole || !std::isfinite(value) || value <= 0) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
-std::optional<double> parse_frame_rate(const std::string& text) {
-  const std::string_view view = text;
-  const std::size_t slash = view.find('/');
-  if (slash == std::string_view::npos) return parse_positive(view);
-  const auto over = parse_positive(view.substr(0, slash));
-  const auto under = parse_positive(view.substr(slash + 1));
-  if (!over || !under) return std::nullopt;
-  return *over / *under;
-}
 
 /// Frame n is due n frame times after the first, however long those before it took.
 void LiveSource::wait_for_turn() {

@@ -41,7 +41,4 @@ class LiveSource final : public FrameSource {
   std::optional<std::string> cut_short_;
 };
 
-/// "30", "29.97" or "30000/1001" as a number above 0; nothing where it is none.
-std::optional<double> parse_frame_rate(const std::string& text);
-
 }  // namespace tvg::cli

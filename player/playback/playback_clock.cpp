@@ -1,34 +1,9 @@
 #include "player/playback/playback_clock.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <string_view>
 
 namespace tvg::cli {
-
-namespace {
-
-std::optional<double> positive_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value > 0)) return std::nullopt;
-  return value;
-}
-
-}  // namespace
-
-std::optional<double> parse_frame_rate(const std::string& text) {
-  constexpr double kLowest = 0.01, kHighest = 1000;
-  const std::size_t slash = text.find('/');
-  const std::optional<double> above = positive_number(std::string_view(text).substr(0, slash));
-  std::optional<double> below = 1.0;
-  if (slash != std::string::npos) below = positive_number(std::string_view(text).substr(slash + 1));
-  if (!above || !below) return std::nullopt;
-  const double rate = *above / *below;
-  if (!(rate >= kLowest && rate <= kHighest)) return std::nullopt;
-  return rate;
-}
 
 double PlaybackClock::position(double now) const {
   return moving() ? anchor_position_ + std::max(0.0, now - anchor_time_) * rate_ * speed_ : anchor_position_;

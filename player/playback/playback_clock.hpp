@@ -5,10 +5,6 @@
 
 namespace tvg::cli {
 
-/// Frames per second of a stream's metadata: "30", "29.97" or "30000/1001"; nothing where the text is no rate
-/// between 0.01 and 1000.
-std::optional<double> parse_frame_rate(const std::string& text);
-
 /// Says which frame is to be shown at a time. It stands still while it is paused, and while the frame it
 /// wants is not there; then it goes on from that frame. Times are in seconds, from any point on, and never
 /// go back.

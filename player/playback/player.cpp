@@ -1,5 +1,7 @@
 #include "player/playback/player.hpp"
 
+#include "cli/option_values.hpp"
+
 #include <algorithm>
 #include <utility>
 

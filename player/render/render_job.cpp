@@ -1,5 +1,6 @@
 #include "player/render/render_job.hpp"
 
+#include "cli/option_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "player/render/overlay_frames.hpp"
@@ -141,7 +142,7 @@ class RenderJob {
     if (options_.fps) return *options_.fps;
     const Metadata metadata = frames_.metadata();
     const auto fps = metadata.find("fps");
-    return fps != metadata.end() && is_frame_rate(fps->second) ? fps->second : "30";
+    return fps != metadata.end() && parse_frame_rate(fps->second) ? fps->second : "30";
   }
 
   ToolError no_frames() const {

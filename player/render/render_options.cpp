@@ -6,24 +6,13 @@
 #include "player/render/video_writer.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
-#include <string_view>
 
 namespace tvg::cli {
 
 namespace {
 
 constexpr int kMostCells = 32;
-
-std::optional<double> parse_positive(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (!std::isfinite(value) || !(value > 0)) return std::nullopt;
-  return value;
-}
 
 void set_output(RenderOptions& options, const std::string& output) {
   options.output = output;
@@ -63,14 +52,6 @@ void check_together(const RenderOptions& options, const RenderArguments& argumen
 
 }  // namespace
 
-bool is_frame_rate(const std::string& text) {
-  const std::size_t slash = text.find('/');
-  const std::optional<double> above = parse_positive(std::string_view(text).substr(0, slash));
-  const std::optional<double> below =
-      slash == std::string::npos ? 1.0 : parse_positive(std::string_view(text).substr(slash + 1));
-  return above && below && *above / *below >= 0.01 && *above / *below <= 1000;
-}
-
 RenderOptions parse_render_arguments(const RenderArguments& arguments) {
   RenderOptions options;
   static_cast<Look&>(options) = parse_look(arguments);
@@ -88,7 +69,7 @@ RenderOptions parse_render_arguments(const RenderArguments& arguments) {
     options.sheet = {shape->first, shape->second};
   }
   if (!arguments.fps.empty()) {
-    if (!is_frame_rate(arguments.fps))
+    if (!parse_frame_rate(arguments.fps))
       fail_option("--fps", arguments.fps, "write frames per second as 30 or 30000/1001");
     options.fps = arguments.fps;
   }

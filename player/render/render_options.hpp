@@ -51,7 +51,4 @@ struct RenderOptions : Look {
 /// Throws ToolError (kUsage) that shows what would be right, also for options that do not go together.
 RenderOptions parse_render_arguments(const RenderArguments& arguments);
 
-/// Whether `text` is a frame rate as metadata and `--fps` have it: "30", "23.976", "30000/1001".
-bool is_frame_rate(const std::string& text);
-
 }  // namespace tvg::cli

@@ -14,7 +14,7 @@ bool is_video_name(const std::string& path);
 /// finish() returns; ffmpeg is ended and what it wrote removed where that is not reached.
 class VideoWriter {
  public:
-  /// All pictures have this size, in even numbers. `fps`: as is_frame_rate() takes it. Throws ToolError:
+  /// All pictures have this size, in even numbers. `fps`: as parse_frame_rate() takes it. Throws ToolError:
   /// kOther where there is no ffmpeg, kIo.
   VideoWriter(const std::string& path, int width, int height, const std::string& fps);
   ~VideoWriter();

@@ -69,22 +69,9 @@ struct GlfwCallbacks {
   static void resize(GLFWwindow* window, int, int) { owner(window); }
 };
 
-GlfwWindow::GlfwWindow(int width, int height, const std::string& title, WindowEvents events)
+GlfwWindow::GlfwWindow(int width, int height, const std::string& title, bool smooth, WindowEvents events)
     : events_(std::move(events)) {
-  if (glfwInit() == GLFW_FALSE) fail();
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  glfwWindowHint(GLFW_SAMPLES, 4);
-  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (window_ == nullptr) {
-    glfwWindowHint(GLFW_SAMPLES, 0);
-    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  }
-  if (window_ == nullptr) fail();
-  glfwMakeContextCurrent(window_);
+  open(width, height, title, smooth);
   glfwSwapInterval(1);
 
   glfwSetWindowUserPointer(window_, this);
@@ -105,6 +92,29 @@ GlfwWindow::GlfwWindow(int width, int height, const std::string& title, WindowEv
   theme::apply(std::clamp(scale, 1.0F, 4.0F));
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callbacks set above as well
   ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+/// Whether the processor can keep up with smoothed edges is known only once there is a context.
+void GlfwWindow::open(int width, int height, const std::string& title, bool smooth) {
+  if (glfwInit() == GLFW_FALSE) fail();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (window_ == nullptr) fail();
+  glfwMakeContextCurrent(window_);
+  const std::string renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  draws_in_software_ =
+      renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+  if (draws_in_software_ && !smooth) return;
+  glfwWindowHint(GLFW_SAMPLES, 4);
+  GLFWwindow* const smoothed = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (smoothed == nullptr) return;
+  glfwDestroyWindow(window_);
+  window_ = smoothed;
+  glfwMakeContextCurrent(window_);
 }
 
 GlfwWindow::~GlfwWindow() {

@@ -22,8 +22,9 @@ struct WindowEvents {
 /// A window with an OpenGL 3.3 core context, current on this thread, and a Dear ImGui over it.
 class GlfwWindow {
  public:
-  /// Throws ToolError (kOther) that says why there can be no window.
-  GlfwWindow(int width, int height, const std::string& title, WindowEvents events);
+  /// Edges are smoothed where that costs little, or where `smooth` asks for it. Throws ToolError (kOther)
+  /// that says why there can be no window.
+  GlfwWindow(int width, int height, const std::string& title, bool smooth, WindowEvents events);
   ~GlfwWindow();
   GlfwWindow(const GlfwWindow&) = delete;
   GlfwWindow& operator=(const GlfwWindow&) = delete;
@@ -35,6 +36,8 @@ class GlfwWindow {
   /// Pixels to draw into.
   int width() const;
   int height() const;
+  /// Whether the processor draws, for want of a graphics card.
+  bool draws_in_software() const { return draws_in_software_; }
   bool visible() const { return width() > 0 && height() > 0; }
 
   void begin_interface();
@@ -49,12 +52,14 @@ class GlfwWindow {
 
  private:
   friend struct GlfwCallbacks;
+  void open(int width, int height, const std::string& title, bool smooth);
   void handle_cursor(double x, double y);
   void handle_button(int button, int action, int modifiers);
 
   GLFWwindow* window_ = nullptr;
   ImGuiContext* interface_ = nullptr;
   WindowEvents events_;
+  bool draws_in_software_ = false;
   bool happened_ = true;
   int held_button_ = -1;
   bool turns_ = true;

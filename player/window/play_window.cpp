@@ -62,7 +62,7 @@ class PlayWindow {
       : options_(options),
         watch_(watch),
         view_{options.style, options.overlay},
-        window_(options.width, options.height, "tvg", events()) {
+        window_(options.width, options.height, "tvg", !options.screenshot.empty(), events()) {
     camera_.set_angles(options.angles);
     if (input != nullptr) use(std::move(input));
   }
@@ -193,6 +193,8 @@ class PlayWindow {
 
   void draw(double now) {
     const Viewport viewport{0, 0, window_.width(), window_.height()};
+    // Without a graphics card, fewer faces keep the pace; a still picture has them all.
+    view_.style.draft = window_.draws_in_software() && snapshot_.playing;
     if (frame_ != nullptr) {
       renderer_.draw(camera_, view_.style, viewport);
     } else {

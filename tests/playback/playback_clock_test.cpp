@@ -1,5 +1,7 @@
 #include "player/playback/playback_clock.hpp"
 
+#include "cli/option_values.hpp"
+
 #include <gtest/gtest.h>
 
 namespace tvg::cli {
