@@ -82,6 +82,19 @@ double parse_share(const std::string& text) {
   return *value / 100;
 }
 
+double parse_rate(const std::string& text) {
+  std::optional<double> rate = number<double>(text);
+  const std::size_t slash = text.find('/');
+  if (slash != std::string::npos) {
+    const auto parts = pair_of<double>(text, '/');
+    if (parts && parts->second > 0) rate = parts->first / parts->second;
+  }
+  if (!rate || !(*rate >= 1e-3 && *rate <= 1e4)) {
+    throw usage("--fps", text, "write frames per second as 30, 29.97 or 30000/1001, from 0.001 to 10000");
+  }
+  return *rate;
+}
+
 std::string readable_bytes(std::uint64_t bytes) {
   constexpr std::array<std::string_view, 4> kUnits = {"kB", "MB", "GB", "TB"};
   if (bytes < 1000) return fmt::format("{} B", bytes);

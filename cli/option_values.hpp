@@ -28,6 +28,9 @@ StepPair parse_step(const std::string& text);
 /// "35%": 0.35.
 double parse_share(const std::string& text);
 
+/// Frames per second as "30" or "30000/1001"; from 0.001 to 10000.
+double parse_rate(const std::string& text);
+
 /// Bytes for people: "1.43 MB".
 std::string readable_bytes(std::uint64_t bytes);
 

@@ -37,6 +37,8 @@ struct EncodeArguments {
   bool reorder = false;
   bool quiet = false;
   std::string fps;
+  std::string clip;
+  std::vector<std::string> meshes;
   std::string name;
   std::string units;
   std::vector<std::string> metadata;
@@ -98,6 +100,8 @@ class WatchedSource final : public FrameSource {
 
   const Mesh& mesh() const override { return source_.mesh(); }
   Metadata metadata() const override { return source_.metadata(); }
+  const Skeleton& skeleton() const override { return source_.skeleton(); }
+  std::span<const float> joint_positions() const override { return source_.joint_positions(); }
   std::optional<std::uint64_t> frame_count() const override { return source_.frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override {
     Result<bool> read = source_.read_frame(positions);
@@ -117,6 +121,7 @@ class WatchedSource final : public FrameSource {
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
   SourceSpec spec{arguments.inputs, {}};
+  spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     options.first_frame = spec.frames->first;
@@ -165,7 +170,8 @@ void add_encode_command(CLI::App& tool) {
       .add_option(
           "input", arguments->inputs,
           "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
-          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj)")
+          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj), or a scene (glTF 2, FBX, COLLADA, X, "
+          "MD5, MD2, ...)")
       ->required();
   command.add_option("-o,--output", arguments->output, "the stream to write; - for standard output")
       ->required();
@@ -199,7 +205,13 @@ void add_encode_command(CLI::App& tool) {
       ->capture_default_str();
   command.add_flag("--reorder", arguments->reorder,
                    "give up the vertex order, which saves about a byte per vertex");
-  command.add_option("--fps", arguments->fps, "frames per second, kept with the stream (30, 30000/1001)");
+  command.add_option("--fps", arguments->fps,
+                     "frames per second, kept with the stream (30, 30000/1001); a scene is sampled at it "
+                     "(default 30)");
+  command.add_option("--clip", arguments->clip,
+                     "the clip of a scene, by name or number (default: the first); tvg info lists them");
+  command.add_option("--mesh", arguments->meshes,
+                     "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");

@@ -4,6 +4,8 @@
 #include "encoder/importers/cache_source.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
+#include "encoder/importers/scene_file.hpp"
+#include "encoder/importers/scene_source.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -28,7 +30,7 @@ bool is_cache(const std::string& path) {
 
 void check_known(const std::string& path) {
   std::error_code ignored;
-  if (is_cache(path) || fs::is_directory(path, ignored)) return;
+  if (is_cache(path) || is_scene(path) || fs::is_directory(path, ignored)) return;
   if (has_suffix(path, ".tvg")) {
     throw ImportError(ErrorCode::kInvalidInput,
                       fmt::format("{} is a TVG stream already; `tvg decode` turns it into meshes", path));
@@ -37,8 +39,8 @@ void check_known(const std::string& path) {
   if (!fs::exists(path, ignored) && !parse_frame_pattern(path)) {
     throw ImportError(ErrorCode::kIo, fmt::format("cannot open {}: there is no such file", path));
   }
-  throw ImportError(ErrorCode::kInvalidInput,
-                    fmt::format("{} has a suffix that is not known: {}", path, kKnownFormats));
+  throw ImportError(ErrorCode::kInvalidInput, fmt::format("{} has a suffix that is not known: {}; {}", path,
+                                                          kKnownFormats, kSceneFormats));
 }
 
 /// The mesh that probably goes with a cache: the one beside it with the same name.
@@ -104,9 +106,31 @@ OpenedSource open_meshes(const std::string& input, const std::optional<FrameRang
           std::move(notes)};
 }
 
+OpenedSource open_scene_alone(const SourceSpec& spec, const std::string& path) {
+  if (spec.inputs.size() > 1) {
+    fail_usage(fmt::format("{} is a scene, which brings its own motion: it is the only input", path));
+  }
+  OpenedScene opened = open_scene(path, spec.scene);
+  if (!spec.frames) return {std::move(opened.source), std::move(opened.notes)};
+  check_frame_range(*spec.frames, opened.source->frame_count().value(), path);
+  return {std::make_unique<FrameRangeSource>(std::move(opened.source), *spec.frames),
+          std::move(opened.notes)};
+}
+
+void refuse_scene_options(const SceneOptions& options) {
+  const char* option = !options.clip.empty() ? "--clip" : !options.meshes.empty() ? "--mesh" : nullptr;
+  if (option != nullptr)
+    fail_usage(fmt::format("{} is for scenes, and the input is none: {}", option, kSceneFormats));
+}
+
 }  // namespace
 
 OpenedSource open_source(const SourceSpec& spec) {
+  for (const std::string& input : spec.inputs) {
+    std::error_code ignored;
+    if (is_scene(input) && !fs::is_directory(input, ignored)) return open_scene_alone(spec, input);
+  }
+  refuse_scene_options(spec.scene);
   std::string mesh;
   std::string cache;
   for (const std::string& input : spec.inputs) {
@@ -122,7 +146,8 @@ OpenedSource open_source(const SourceSpec& spec) {
     }
     place = input;
   }
-  if (mesh.empty() && cache.empty()) fail_usage(fmt::format("no input is given: {}", kKnownFormats));
+  if (mesh.empty() && cache.empty())
+    fail_usage(fmt::format("no input is given: {}; {}", kKnownFormats, kSceneFormats));
   if (mesh.empty()) fail_cache_alone(cache);
   return cache.empty() ? open_meshes(mesh, spec.frames) : open_mesh_and_cache(mesh, cache, spec.frames);
 }

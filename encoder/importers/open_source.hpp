@@ -1,5 +1,6 @@
 #pragma once
 #include "encoder/importers/frame_range.hpp"
+#include "encoder/importers/scene_options.hpp"
 
 #include <memory>
 #include <optional>
@@ -13,11 +14,13 @@ namespace tvg::cli {
 /// What a user names as input.
 struct SourceSpec {
   /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, MDD, or "-" for a cache on standard
-  /// input); or a sequence of mesh files, as a folder or a pattern ("walk_%04d.obj", "walk_####.obj"); or one
-  /// mesh file.
+  /// input); or a sequence of mesh files, as a folder or a pattern ("walk_%04d.obj", "walk_####.obj"); one
+  /// mesh file; or a scene (scene_source.hpp).
   std::vector<std::string> inputs;
   /// The frames wanted, counted from 0 whatever the numbers in the files' names; all where absent.
-  std::optional<FrameRange> frames;
+  std::optional<FrameRange> frames = {};
+  /// For a scene: which clip and meshes, and how finely it is sampled.
+  SceneOptions scene = {};
 };
 
 struct OpenedSource {
