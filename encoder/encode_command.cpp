@@ -39,6 +39,7 @@ struct EncodeArguments {
   std::string fps;
   std::string clip;
   std::vector<std::string> meshes;
+  std::string skeleton;
   std::string name;
   std::string units;
   std::vector<std::string> metadata;
@@ -122,6 +123,7 @@ void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
+  spec.skeleton = arguments.skeleton;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     options.first_frame = spec.frames->first;
@@ -212,6 +214,10 @@ void add_encode_command(CLI::App& tool) {
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
   command.add_option("--mesh", arguments->meshes,
                      "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
+  command.add_option(
+      "--skeleton", arguments->skeleton,
+      "a BVH file with the joints of a cache or sequence: frame by frame where it has as many, "
+      "else by time");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");

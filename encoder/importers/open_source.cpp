@@ -6,6 +6,7 @@
 #include "encoder/importers/mesh_sequence.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_source.hpp"
+#include "encoder/importers/skeleton_source.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -66,8 +67,16 @@ std::string mesh_beside(const std::string& cache) {
                          example));
 }
 
+/// Puts the skeleton of `spec`, where there is one, beside a source whose first frame is `first` of `total`.
+std::unique_ptr<SkippableSource> with_skeleton(std::unique_ptr<SkippableSource> source,
+                                               const SourceSpec& spec, std::uint64_t first,
+                                               std::uint64_t total, std::vector<std::string>& notes) {
+  if (spec.skeleton.empty()) return source;
+  return attach_skeleton(std::move(source), {spec.skeleton, spec.scene.fps, first, total}, notes);
+}
+
 OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string& cache,
-                                 const std::optional<FrameRange>& frames) {
+                                 const SourceSpec& spec) {
   std::error_code ignored;
   if (fs::is_directory(mesh_path, ignored) ||
       (parse_frame_pattern(mesh_path) && !fs::exists(mesh_path, ignored))) {
@@ -78,12 +87,15 @@ OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string
   if (!welded.mesh.name.empty()) metadata.emplace("name", welded.mesh.name);
   Mesh mesh{static_cast<std::uint32_t>(welded.mesh.vertex_count()), std::move(welded.mesh.faces)};
   auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path);
-  if (!frames) return {std::move(source), std::move(welded.notes)};
-  check_frame_range(*frames, source->frame_count().value(), cache == "-" ? "standard input" : cache);
-  return {std::make_unique<FrameRangeSource>(std::move(source), *frames), std::move(welded.notes)};
+  const std::uint64_t frame_count = source->frame_count().value();
+  source = with_skeleton(std::move(source), spec, 0, frame_count, welded.notes);
+  if (!spec.frames) return {std::move(source), std::move(welded.notes)};
+  check_frame_range(*spec.frames, frame_count, cache == "-" ? "standard input" : cache);
+  return {std::make_unique<FrameRangeSource>(std::move(source), *spec.frames), std::move(welded.notes)};
 }
 
-OpenedSource open_meshes(const std::string& input, const std::optional<FrameRange>& frames) {
+OpenedSource open_meshes(const std::string& input, const SourceSpec& spec) {
+  const std::optional<FrameRange>& frames = spec.frames;
   std::vector<std::string> files;
   std::error_code ignored;
   if (fs::is_directory(input, ignored)) {
@@ -93,8 +105,9 @@ OpenedSource open_meshes(const std::string& input, const std::optional<FrameRang
   } else {
     files = {input};
   }
+  const std::uint64_t frame_count = files.size();
   if (frames) {
-    check_frame_range(*frames, files.size(), input);
+    check_frame_range(*frames, frame_count, input);
     // The range picks files before the first is read: connectivity may differ outside it.
     files.erase(files.begin() + static_cast<std::ptrdiff_t>(frames->last) + 1, files.end());
     files.erase(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(frames->first));
@@ -102,13 +115,19 @@ OpenedSource open_meshes(const std::string& input, const std::optional<FrameRang
   WeldedMesh first = read_welded_mesh(files[0]);
   std::vector<std::string> notes = std::move(first.notes);
   const std::uint64_t first_frame = frames ? frames->first : 0;
-  return {std::make_unique<MeshSequenceSource>(std::move(files), std::move(first), first_frame),
-          std::move(notes)};
+  std::unique_ptr<SkippableSource> source =
+      std::make_unique<MeshSequenceSource>(std::move(files), std::move(first), first_frame);
+  source = with_skeleton(std::move(source), spec, first_frame, frame_count, notes);
+  return {std::move(source), std::move(notes)};
 }
 
 OpenedSource open_scene_alone(const SourceSpec& spec, const std::string& path) {
   if (spec.inputs.size() > 1) {
     fail_usage(fmt::format("{} is a scene, which brings its own motion: it is the only input", path));
+  }
+  if (!spec.skeleton.empty()) {
+    fail_usage(
+        fmt::format("--skeleton {}: {} is a scene, which brings its own skeleton", spec.skeleton, path));
   }
   OpenedScene opened = open_scene(path, spec.scene);
   if (!spec.frames) return {std::move(opened.source), std::move(opened.notes)};
@@ -149,7 +168,7 @@ OpenedSource open_source(const SourceSpec& spec) {
   if (mesh.empty() && cache.empty())
     fail_usage(fmt::format("no input is given: {}; {}", kKnownFormats, kSceneFormats));
   if (mesh.empty()) fail_cache_alone(cache);
-  return cache.empty() ? open_meshes(mesh, spec.frames) : open_mesh_and_cache(mesh, cache, spec.frames);
+  return cache.empty() ? open_meshes(mesh, spec) : open_mesh_and_cache(mesh, cache, spec);
 }
 
 }  // namespace tvg::cli

@@ -21,6 +21,10 @@ struct SourceSpec {
   std::optional<FrameRange> frames = {};
   /// For a scene: which clip and meshes, and how finely it is sampled.
   SceneOptions scene = {};
+  /// A BVH file whose joints go with the frames of a cache or a sequence; none where empty. As many frames as
+  /// the BVH has are taken one to one; otherwise frame i stands at i / fps seconds, where fps is that of
+  /// `scene` or else of the input.
+  std::string skeleton = {};
 };
 
 struct OpenedSource {

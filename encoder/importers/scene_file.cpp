@@ -3,6 +3,7 @@
 #include "cli/mesh_format.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
+#include "encoder/importers/trial.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,9 +20,12 @@ namespace tvg::cli {
 
 namespace {
 
-constexpr std::array<std::string_view, 22> kSuffixes = {
-    ".gltf", ".glb", ".fbx",  ".dae", ".x",   ".md5mesh", ".md2", ".md3", ".mdc",      ".mdl",     ".smd",
-    ".b3d",  ".3ds", ".ms3d", ".ase", ".lws", ".ogex",    ".m3d", ".iqm", ".mesh.xml", ".md5anim", ".irr"};
+constexpr std::array<std::string_view, 17> kSuffixes = {
+    ".gltf", ".glb", ".fbx", ".dae", ".x",    ".md5mesh", ".md2", ".md3",     ".mdc",
+    ".mdl",  ".smd", ".b3d", ".3ds", ".ms3d", ".ase",     ".lws", ".mesh.xml"};
+
+/// Processor time that assimp has for a file; the largest characters take a few seconds.
+constexpr unsigned kMostSeconds = 120;
 
 /// FBX says centimetres per unit.
 std::string unit_of_centimetres(double centimetres) {
@@ -51,12 +55,36 @@ Metadata fbx_metadata(const aiScene& scene) {
   return metadata;
 }
 
+const aiScene* import(Assimp::Importer& importer, const std::string& path,
+                      std::optional<std::uint32_t> keyframe) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
+  if (keyframe) importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(*keyframe));
+  return importer.ReadFile(path, aiProcess_Triangulate);
+}
+
+/// assimp crashes or hangs on some damaged files (a cut .md5mesh, for one), so a child process goes first.
+void try_import(const SceneFile& file, std::optional<std::uint32_t> keyframe) {
+  const auto action = [&file, keyframe] {
+    Assimp::Importer importer;
+    import(importer, file.path(), keyframe);
+  };
+  switch (run_trial(action, kMostSeconds)) {
+    case TrialResult::kFine:
+      return;
+    case TrialResult::kCrashed:
+      file.fail("it is damaged or no such file as its suffix says: assimp, which reads it, crashes on it");
+    case TrialResult::kTooLong:
+      file.fail(fmt::format("it is damaged or too large: assimp, which reads it, does not end within {} s",
+                            kMostSeconds));
+  }
+}
+
 }  // namespace
 
 const char* const kSceneFormats =
     "scenes are glTF 2 (.gltf, .glb), .fbx, COLLADA (.dae), .x, .md5mesh, .md2, .md3, .mdc, .mdl, .smd, "
-    ".b3d, "
-    ".3ds, .ms3d, .ase, .lws, .irr, .ogex, .m3d, .iqm or .mesh.xml";
+    ".b3d, .3ds, .ms3d, .ase, .lws or .mesh.xml";
 
 bool is_scene(const std::string& path) {
   return std::any_of(kSuffixes.begin(), kSuffixes.end(),
@@ -72,12 +100,11 @@ SceneFile::SceneFile(const std::string& path, std::optional<std::uint32_t> keyfr
   if (std::filesystem::is_directory(path, ignored)) fail("it is a folder, not a scene");
   // A missing right to read is told by the system's own words.
   InputFile readable(path);
-  importer_->SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  importer_->SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
-  if (keyframe) importer_->SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(*keyframe));
+  // Frames after the first come from a file that has been tried.
+  if (keyframe.value_or(0) == 0) try_import(*this, keyframe);
   std::string reason;
   try {
-    scene_ = importer_->ReadFile(path, aiProcess_Triangulate);
+    scene_ = import(*importer_, path, keyframe);
     reason = importer_->GetErrorString();
   } catch (const std::exception& error) {
     reason = error.what();

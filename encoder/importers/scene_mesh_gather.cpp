@@ -54,9 +54,8 @@ class Gatherer {
     }
     check_names();
     if (result_.mesh.faces.empty()) {
-      file_.fail(scene_.mNumMeshes == 0
-                     ? "it holds no mesh; a file of motion alone goes with a mesh as --skeleton (BVH)"
-                     : "its meshes have no faces to encode");
+      file_.fail(scene_.mNumMeshes == 0 ? "it holds no mesh to encode"
+                                        : "its meshes have no faces to encode");
     }
     result_.mesh.vertex_count = static_cast<std::uint32_t>(result_.positions.size());
     return std::move(result_);
