@@ -105,6 +105,13 @@ Extrapolation extrapolation(aiAnimBehaviour behaviour) {
   }
 }
 
+struct TimeRange {
+  double first = std::numeric_limits<double>::infinity();
+  double last = -std::numeric_limits<double>::infinity();
+
+  bool empty() const { return first > last; }
+};
+
 class ClipReader {
  public:
   ClipReader(const SceneFile& file, const SceneNodes& nodes, const aiAnimation& animation)
@@ -121,8 +128,9 @@ class ClipReader {
     for (unsigned i = 0; i < animation_.mNumMorphMeshChannels; ++i) {
       if (animation_.mMorphMeshChannels[i] != nullptr) read_morph_channel(*animation_.mMorphMeshChannels[i]);
     }
-    clip_.first = first_ <= last_ ? first_ : 0;
-    clip_.last = first_ <= last_ ? last_ : 0;
+    const TimeRange& range = moving_.empty() ? still_ : moving_;
+    clip_.first = range.empty() ? 0 : range.first;
+    clip_.last = range.empty() ? 0 : range.last;
     return std::move(clip_);
   }
 
@@ -130,8 +138,6 @@ class ClipReader {
   double to_seconds(double ticks) {
     const double seconds = ticks / ticks_per_second_;
     if (!std::isfinite(seconds)) fail("has a key at a time that is not finite");
-    first_ = std::min(first_, seconds);
-    last_ = std::max(last_, seconds);
     return seconds;
   }
 
@@ -145,6 +151,15 @@ class ClipReader {
       }
     }
     sort_by_time(track);
+    add_to_range(track.times);
+  }
+
+  /// A track with one key stands still, often at a time that assimp made up.
+  void add_to_range(const std::vector<double>& times) {
+    if (times.empty()) return;
+    TimeRange& range = times.size() > 1 ? moving_ : still_;
+    range.first = std::min(range.first, times.front());
+    range.last = std::max(range.last, times.back());
   }
 
   void read_node_channel(const aiNodeAnim& source) {
@@ -198,6 +213,7 @@ class ClipReader {
     if (channel.weights.times.empty()) return;
     for (std::vector<double>& weights : channel.weights.values) weights.resize(channel.target_count);
     sort_by_time(channel.weights);
+    add_to_range(channel.weights.times);
     clip_.morphs.push_back(std::move(channel));
   }
 
@@ -212,8 +228,7 @@ class ClipReader {
   const aiAnimation& animation_;
   double ticks_per_second_ = kDefaultTicksPerSecond;
   Clip clip_;
-  double first_ = std::numeric_limits<double>::infinity();
-  double last_ = -std::numeric_limits<double>::infinity();
+  TimeRange moving_, still_;
 };
 
 /// The time within the keys that a repeating channel shows.

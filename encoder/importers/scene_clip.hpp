@@ -50,8 +50,8 @@ struct Clip {
   std::string name;
   std::vector<NodeChannel> nodes;
   std::vector<MorphChannel> morphs;
-  double first = 0;  ///< time of the first key, in seconds
-  double last = 0;   ///< time of the last key
+  double first = 0;  ///< time of the first key, in seconds, of all tracks with more than one
+  double last = 0;   ///< time of their last key
 
   double duration() const { return last - first; }
   /// Samples at `fps` from the first key to the last, both included: where the duration is no whole number of

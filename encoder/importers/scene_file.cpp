@@ -12,7 +12,6 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -93,12 +92,7 @@ bool is_scene(const std::string& path) {
 
 SceneFile::SceneFile(const std::string& path, std::optional<std::uint32_t> keyframe)
     : path_(path), importer_(std::make_unique<Assimp::Importer>()) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    throw ImportError(ErrorCode::kIo, fmt::format("cannot open {}: there is no such file", path));
-  }
-  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder, not a scene");
-  // A missing right to read is told by the system's own words.
+  // A file that is not there, or may not be read, is told in the system's own words.
   InputFile readable(path);
   // Frames after the first come from a file that has been tried.
   if (keyframe.value_or(0) == 0) try_import(*this, keyframe);

@@ -3,6 +3,7 @@
 #include "cli/mesh_format.hpp"
 #include "cli/option_values.hpp"
 #include "encoder/importers/bytes.hpp"
+#include "encoder/importers/gltf_keys.hpp"
 #include "encoder/importers/keyframe_source.hpp"
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/scene_file.hpp"
@@ -108,6 +109,20 @@ void note_clips(const SceneFile& file, std::size_t chosen, bool asked, std::vect
                               scene.mAnimations[chosen]->mName.C_Str(), fmt::join(others, ", ")));
 }
 
+void note_keys(const SceneFile& file, std::size_t clip, std::vector<std::string>& notes) {
+  const GltfKeys keys = find_gltf_keys(file.path(), clip);
+  if (keys.has_curved_morphs) {
+    file.fail(
+        "morph weights along cubic splines (CUBICSPLINE) are not read; export the clip with linear keys");
+  }
+  if (!keys.has_steps && !keys.has_curves) return;
+  notes.push_back(fmt::format("{}: {} keys are read as linear ones; export the clip sampled to keep them",
+                              file.path(),
+                              keys.has_steps && keys.has_curves ? "stepped and curved"
+                              : keys.has_steps                  ? "stepped"
+                                                                : "curved"));
+}
+
 void note_mesh(const std::string& path, const SceneMesh& mesh, std::size_t vertices_before,
                std::vector<std::string>& notes) {
   if (mesh.parts > 1) notes.push_back(fmt::format("{}: {} meshes merged into one", path, mesh.parts));
@@ -132,6 +147,7 @@ OpenedScene open_clip(const std::string& path, const SceneOptions& options) {
     const std::size_t index = options.clip.empty() ? 0 : find_clip(file, options.clip);
     note_clips(file, index, !options.clip.empty(), opened.notes);
     clip = read_clip(file, nodes, index);
+    note_keys(file, index, opened.notes);
   } else {
     opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
   }
