@@ -24,7 +24,10 @@ std::string bvh(int frames) {
       "    End Site\n    {\n      OFFSET 0 -1 0\n    }\n  }\n}\nMOTION\n";
   text += "Frames: " + std::to_string(frames) + "\nFrame Time: 0.1\n";
   for (int frame = 0; frame < frames; ++frame) {
-    text += std::to_string(frame) + " 5 0 0 0 0 " + std::to_string(90 * frame) + " 0 0\n";
+    text.append(std::to_string(frame))
+        .append(" 5 0 0 0 0 ")
+        .append(std::to_string(90 * frame))
+        .append(" 0 0\n");
   }
   return text;
 }
