@@ -18,14 +18,20 @@ namespace tvg::cli {
 
 namespace {
 
-/// Where a format's header counts its frames.
+/// Where a format's header counts its frames, and whether assimp gives others than the first.
 struct KeyframeFormat {
   const char* signature;
   std::size_t count_offset;
+  bool is_read;
 };
 
-constexpr std::array<KeyframeFormat, 7> kFormats = {
-    {{"IDP2", 40}, {"IDP3", 76}, {"IDPC", 76}, {"IDPO", 68}, {"MDL3", 68}, {"MDL4", 68}, {"MDL5", 68}}};
+constexpr std::array<KeyframeFormat, 7> kFormats = {{{"IDP2", 40, true},
+                                                     {"IDP3", 76, false},
+                                                     {"IDPC", 76, false},
+                                                     {"IDPO", 68, false},
+                                                     {"MDL3", 68, false},
+                                                     {"MDL4", 68, false},
+                                                     {"MDL5", 68, false}}};
 
 constexpr std::size_t kHeaderSize = 80;
 constexpr std::uint32_t kMostKeyframes = 65536;
@@ -150,7 +156,14 @@ std::optional<std::uint32_t> keyframe_count(const std::string& path) {
           ErrorCode::kInvalidInput,
           fmt::format("{}: its header says {} frames; 1 to {} are read", path, count, kMostKeyframes));
     }
-    return count;
+    if (format.is_read) return count;
+    if (count == 1) return std::nullopt;
+    throw ImportError(
+        ErrorCode::kInvalidInput,
+        fmt::format(
+            "{}: it holds a mesh for each of {} frames, and of its format only the first can be read; "
+            "MD2 is read whole, as are skinned formats and sequences of mesh files",
+            path, count));
   }
   return std::nullopt;
 }

@@ -7,8 +7,9 @@
 
 namespace tvg::cli {
 
-/// Frames of a file that holds one mesh per frame (MD2, MD3, MDC, Quake's MDL), by its first bytes; nothing
-/// for other files. Throws ImportError (kIo).
+/// Frames of a file that holds one mesh per frame (MD2), by its first bytes; nothing for other files. Throws
+/// ImportError: kIo; kInvalidInput for formats like it whose first frame is all that assimp gives (MD3, MDC,
+/// MDL of Quake and 3D GameStudio), where they hold more than one.
 std::optional<std::uint32_t> keyframe_count(const std::string& path);
 
 /// Opens such a file. assimp gives one frame at a time, so that the file is read once for each; vertices are
