@@ -22,7 +22,7 @@ bool is_scene(const std::string& path);
 /// no such file, kInvalidInput for content that assimp refuses.
 class SceneFile {
  public:
-  /// `keyframe` picks a frame of a format that holds one mesh per frame (MD2, MD3).
+  /// `keyframe` picks a frame of a format that holds one mesh per frame (MD2).
   explicit SceneFile(const std::string& path, std::optional<std::uint32_t> keyframe = {});
   ~SceneFile();
   SceneFile(const SceneFile&) = delete;

@@ -316,6 +316,19 @@ TEST_F(Scene, ReadsMd5WithTheClipBesideIt) {
   }
 }
 
+TEST_F(Scene, RefusesVertexAnimationThatWouldStandStill) {
+  ByteString md3(false);
+  md3.text("IDP3")
+      .add(std::int32_t{15})
+      .text(std::string(68, '\0'))
+      .add(std::int32_t{3})
+      .add(std::int32_t{0});
+  const std::string path = folder_.write("a.md3", md3.bytes());
+  const ToolError error = thrown_by([&] { open_source({{path}}); });
+  EXPECT_EQ(error.status(), ExitStatus::kInvalidInput);
+  EXPECT_THAT(error.what(), HasSubstr("a.md3: it holds a mesh for each of 3 frames"));
+}
+
 TEST_F(Scene, RefusesAClipThatLastsForever) {
   GltfBuilder gltf = two_triangles();
   gltf.animate(0, 1, "scale", {0, 1e12F}, "VEC3", {1, 1, 1, 1, 1, 1});
