@@ -16,8 +16,8 @@ struct OpenedScene {
 
 /// Opens one clip of a scene and bakes it frame by frame as it is read: keys are interpolated (rotations
 /// along the shortest arc), node transforms applied, skins blended linearly, morph targets added. A scene
-/// without clips is one frame. Files of MD2, MD3, MDC and Quake's MDL hold a mesh per frame: all frames are
-/// read, each as it is. Throws ToolError: kUsage (a clip, mesh or rate that is not there), kIo,
+/// without clips is one frame. An MD2 file holds a mesh per frame: all frames are read, each
+/// as it is. Throws ToolError: kUsage (a clip, mesh or rate that is not there), kIo,
 /// kInvalidInput.
 OpenedScene open_scene(const std::string& path, const SceneOptions& options);
 
