@@ -90,16 +90,20 @@ bool is_scene(const std::string& path) {
                      [&path](std::string_view suffix) { return has_suffix(path, suffix); });
 }
 
+struct SceneFile::Import {
+  Assimp::Importer importer;
+};
+
 SceneFile::SceneFile(const std::string& path, std::optional<std::uint32_t> keyframe)
-    : path_(path), importer_(std::make_unique<Assimp::Importer>()) {
+    : path_(path), import_(std::make_unique<Import>()) {
   // A file that is not there, or may not be read, is told in the system's own words.
   InputFile readable(path);
   // Frames after the first come from a file that has been tried.
   if (keyframe.value_or(0) == 0) try_import(*this, keyframe);
   std::string reason;
   try {
-    scene_ = import(*importer_, path, keyframe);
-    reason = importer_->GetErrorString();
+    scene_ = import(import_->importer, path, keyframe);
+    reason = import_->importer.GetErrorString();
   } catch (const std::exception& error) {
     reason = error.what();
   }

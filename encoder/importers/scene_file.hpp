@@ -6,9 +6,6 @@
 #include <tvg/sequence.hpp>
 
 struct aiScene;
-namespace Assimp {
-class Importer;
-}
 
 namespace tvg::cli {
 
@@ -37,7 +34,8 @@ class SceneFile {
 
  private:
   std::string path_;
-  std::unique_ptr<Assimp::Importer> importer_;
+  struct Import;
+  std::unique_ptr<Import> import_;
   const aiScene* scene_ = nullptr;
 };
 

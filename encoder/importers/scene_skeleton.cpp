@@ -1,5 +1,7 @@
 #include "encoder/importers/scene_skeleton.hpp"
 
+#include <algorithm>
+
 namespace tvg::cli {
 
 namespace {
@@ -68,10 +70,10 @@ SceneSkeleton find_skeleton(const SceneNodes& nodes, const SceneMesh& mesh) {
 
   result.skeleton.heaviest_joint.reserve(mesh.positions.size());
   for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-    const Influence* heaviest = nullptr;
-    for (const Influence& influence : mesh.influences_of(vertex)) {
-      if (heaviest == nullptr || influence.weight > heaviest->weight) heaviest = &influence;
-    }
+    const auto influences = mesh.influences_of(vertex);
+    const auto heaviest =
+        std::max_element(influences.begin(), influences.end(),
+                         [](const Influence& x, const Influence& y) { return x.weight < y.weight; });
     const std::int32_t joint = nearest[mesh.carriers[heaviest->carrier].node];
     result.skeleton.heaviest_joint.push_back(joint < 0 ? 0 : static_cast<std::uint32_t>(joint));
   }
