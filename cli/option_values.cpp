@@ -32,16 +32,12 @@ std::optional<std::pair<T, T>> pair_of(std::string_view text, char separator) {
   return std::pair(*first, *second);
 }
 
-ToolError usage(const std::string& option, const std::string& text, const std::string& right) {
-  return {ExitStatus::kUsage, fmt::format("{} {}: {}", option, text, right)};
-}
-
 }  // namespace
 
 FrameRange parse_frame_range(const std::string& text) {
   const auto range = pair_of<std::uint64_t>(text, '-');
   if (!range || range->first > range->second) {
-    throw usage("--frames", text, "write the first and the last frame, counted from 0, as 0-49");
+    fail_option("--frames", text, "write the first and the last frame, counted from 0, as 0-49");
   }
   return {range->first, range->second};
 }
@@ -49,7 +45,7 @@ FrameRange parse_frame_range(const std::string& text) {
 BitPair parse_bits(const std::string& text) {
   const auto bits = pair_of<int>(text, ':');
   if (!bits || bits->first < 1 || bits->first > 24 || bits->second < 1 || bits->second > bits->first) {
-    throw usage("--bits", text,
+    fail_option("--bits", text,
                 "write the bits of important and of other vertices as 13:11, or one number for all; 1 to 24, "
                 "the first "
                 "at least the second");
@@ -64,11 +60,11 @@ StepPair parse_step(const std::string& text) {
       "4, 8, ... "
       "times the first, or one number for all";
   if (!steps || !(steps->first > 0) || !std::isfinite(steps->first) || !(steps->second >= steps->first)) {
-    throw usage("--step", text, right);
+    fail_option("--step", text, right);
   }
   const double ratio = steps->second / steps->first;
   const double shift = std::round(std::log2(ratio));
-  if (shift > 23 || std::abs(ratio - std::exp2(shift)) > 1e-6 * ratio) throw usage("--step", text, right);
+  if (shift > 23 || std::abs(ratio - std::exp2(shift)) > 1e-6 * ratio) fail_option("--step", text, right);
   return {steps->first, static_cast<int>(shift)};
 }
 
@@ -77,7 +73,7 @@ double parse_share(const std::string& text) {
   const std::optional<double> value =
       percent ? number<double>(std::string_view(text).substr(0, text.size() - 1)) : std::nullopt;
   if (!value || !(*value >= 0 && *value <= 100)) {
-    throw usage("--important", text, "write the share of important vertices as 35%");
+    fail_option("--important", text, "write the share of important vertices as 35%");
   }
   return *value / 100;
 }
@@ -118,6 +114,13 @@ std::optional<std::pair<int, int>> parse_count_pair(std::string_view text, int m
 
 void fail_option(const std::string& option, const std::string& text, const std::string& right) {
   throw ToolError(ExitStatus::kUsage, fmt::format("{} {}: {}", option, text, right));
+}
+
+double parse_rate(const std::string& text) {
+  const std::optional<double> rate = parse_frame_rate(text);
+  if (!rate)
+    fail_option("--fps", text, "write frames per second as 30, 29.97 or 30000/1001, from 0.01 to 1000");
+  return *rate;
 }
 
 std::string readable_bytes(std::uint64_t bytes) {

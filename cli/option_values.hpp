@@ -44,6 +44,9 @@ std::optional<std::pair<int, int>> parse_count_pair(std::string_view text, int m
 /// Throws ToolError (kUsage): "OPTION TEXT: what would be right".
 [[noreturn]] void fail_option(const std::string& option, const std::string& text, const std::string& right);
 
+/// The value of --fps, as parse_frame_rate() has it. Throws ToolError (kUsage).
+double parse_rate(const std::string& text);
+
 /// Bytes for people: "1.43 MB".
 std::string readable_bytes(std::uint64_t bytes);
 

@@ -1,8 +1,10 @@
 #include "cli/commands.hpp"
+#include "cli/mesh_format.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "decoder/stream_source.hpp"
 #include "encoder/importers/open_source.hpp"
+#include "encoder/importers/scene_file.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -20,7 +22,9 @@ namespace {
 struct CompareArguments {
   std::string original;
   std::string decoded;
-  std::string mesh;
+  std::vector<std::string> meshes;
+  std::string clip;
+  std::string fps;
   std::uint32_t hausdorff_stride = 0;
   bool json = false;
   bool quiet = false;
@@ -34,16 +38,38 @@ bool is_cache(const std::string& path) {
   return suffix == ".pc2" || suffix == ".mdd";
 }
 
-/// A stream, a cache with the mesh named by --mesh, or a sequence of mesh files.
-std::unique_ptr<FrameSource> open_side(const std::string& path, const std::string& mesh) {
+/// The rate a scene is sampled at unless --fps says it: that of the stream it is compared with.
+std::string rate_of(const FrameSource& other) {
+  const Metadata metadata = other.metadata();
+  const auto fps = metadata.find("fps");
+  return fps == metadata.end() ? "" : fps->second;
+}
+
+/// A stream, a cache with the mesh file named by --mesh, a sequence of mesh files, or a scene.
+std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArguments& arguments,
+                                       const std::string& fps) {
   if (is_stream(path)) return std::make_unique<StreamSource>(path);
+  std::string mesh;
+  SourceSpec spec{{path}};
+  for (const std::string& name : arguments.meshes) {
+    if (mesh_format(name)) {
+      mesh = name;
+    } else if (is_scene(path)) {
+      spec.scene.meshes.push_back(name);
+    }
+  }
+  if (is_scene(path)) {
+    spec.scene.clip = arguments.clip;
+    spec.scene.fps = fps;
+  }
   if (is_cache(path) && mesh.empty()) {
     throw ToolError(
         ExitStatus::kUsage,
         fmt::format("{}: a cache has no faces: name its mesh with --mesh (an OBJ, PLY, OFF or STL file)",
                     path));
   }
-  return open_source({is_cache(path) ? std::vector{mesh, path} : std::vector{path}, {}}).source;
+  if (is_cache(path)) spec.inputs = {mesh, path};
+  return open_source(spec).source;
 }
 
 Result<bool> read(FrameSource& source, FramePositions& frame, const std::string& path) {
@@ -53,8 +79,9 @@ Result<bool> read(FrameSource& source, FramePositions& frame, const std::string&
 }
 
 ComparisonReport compare(const CompareArguments& arguments) {
-  const auto original = open_side(arguments.original, arguments.mesh);
-  const auto decoded = open_side(arguments.decoded, arguments.mesh);
+  const auto decoded = open_side(arguments.decoded, arguments, arguments.fps);
+  const auto original =
+      open_side(arguments.original, arguments, arguments.fps.empty() ? rate_of(*decoded) : arguments.fps);
   const std::uint32_t vertices = original->mesh().vertex_count;
   if (decoded->mesh().vertex_count != vertices) {
     throw ToolError(
@@ -144,10 +171,17 @@ void print_text(const ComparisonReport& report) {
 void add_compare_command(CLI::App& tool) {
   auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = *tool.add_subcommand("compare", "Measure how far decoded frames lie from the original");
-  command.add_option("original", arguments->original, "a cache, a sequence of mesh files, or a .tvg")
+  command
+      .add_option("original", arguments->original, "a cache, a sequence of mesh files, a scene, or a .tvg")
       ->required();
   command.add_option("decoded", arguments->decoded, "the same of what was decoded")->required();
-  command.add_option("--mesh", arguments->mesh, "the mesh of the caches (OBJ, PLY, OFF, STL)");
+  command.add_option(
+      "--mesh", arguments->meshes,
+      "the mesh of the caches (OBJ, PLY, OFF, STL), or a mesh of a scene by name, as it was encoded; "
+      "may be repeated");
+  command.add_option("--clip", arguments->clip, "the clip of a scene, as it was encoded");
+  command.add_option("--fps", arguments->fps,
+                     "sample a scene at this rate (default: that of the decoded stream)");
   command
       .add_option("--hausdorff", arguments->hausdorff_stride,
                   "also measure the Hausdorff distance between the surfaces, at every Nth frame (slow)")

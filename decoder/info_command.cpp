@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/option_values.hpp"
 #include "cli/tool_error.hpp"
+#include "decoder/scene_info.hpp"
 #include "decoder/stream_reader.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ namespace {
 
 struct InfoArguments {
   std::string input;
+  std::string fps = "30";
   bool json = false;
 };
 
@@ -192,10 +194,18 @@ void print_text(const StreamSummary& summary) {
 
 void add_info_command(CLI::App& tool) {
   auto arguments = std::make_shared<InfoArguments>();
-  CLI::App& command = *tool.add_subcommand("info", "Show what a .tvg holds and where its bytes go");
-  command.add_option("input", arguments->input, "the stream; - for standard input")->required();
+  CLI::App& command =
+      *tool.add_subcommand("info", "Show what a .tvg holds and where its bytes go, or what a scene holds");
+  command.add_option("input", arguments->input, "the stream (- for standard input), a scene or a BVH file")
+      ->required();
+  command.add_option("--fps", arguments->fps, "count the frames of a scene's clips at this rate")
+      ->capture_default_str();
   command.add_flag("--json", arguments->json, "print everything as JSON");
   command.callback([arguments] {
+    if (has_scene_info(arguments->input)) {
+      print_scene_info(arguments->input, arguments->fps, arguments->json);
+      return;
+    }
     const StreamSummary summary = summarize(arguments->input);
     arguments->json ? print_json(summary) : print_text(summary);
   });

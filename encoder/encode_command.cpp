@@ -42,6 +42,9 @@ struct EncodeArguments {
   bool loop = false;
   bool quiet = false;
   std::string fps;
+  std::string clip;
+  std::vector<std::string> meshes;
+  std::string skeleton;
   std::string name;
   std::string units;
   std::vector<std::string> metadata;
@@ -104,6 +107,8 @@ class WatchedSource final : public FrameSource {
 
   const Mesh& mesh() const override { return source_.mesh(); }
   Metadata metadata() const override { return source_.metadata(); }
+  const Skeleton& skeleton() const override { return source_.skeleton(); }
+  std::span<const float> joint_positions() const override { return source_.joint_positions(); }
   std::optional<std::uint64_t> frame_count() const override { return source_.frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override {
     Result<bool> read = source_.read_frame(positions);
@@ -157,7 +162,10 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
 
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
-  SourceSpec spec{arguments.inputs, {}, arguments.live};
+  SourceSpec spec{arguments.inputs, {}};
+  spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
+  spec.skeleton = arguments.skeleton;
+  spec.open_ended = arguments.live;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     options.first_frame = spec.frames->first;
@@ -203,7 +211,8 @@ void add_encode_command(CLI::App& tool) {
       .add_option(
           "input", arguments->inputs,
           "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
-          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj)")
+          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj), or a scene (glTF 2, FBX, COLLADA, X, "
+          "MD5, MD2, ...)")
       ->required();
   command
       .add_option("-o,--output", arguments->output,
@@ -240,7 +249,17 @@ void add_encode_command(CLI::App& tool) {
       ->check(CLI::Range(1, 65536));
   command.add_flag("--reorder", arguments->reorder,
                    "give up the vertex order, which saves about a byte per vertex");
-  command.add_option("--fps", arguments->fps, "frames per second, kept with the stream (30, 30000/1001)");
+  command.add_option("--fps", arguments->fps,
+                     "frames per second, kept with the stream (30, 30000/1001); a scene is sampled at it "
+                     "(default 30)");
+  command.add_option("--clip", arguments->clip,
+                     "the clip of a scene, by name or number (default: the first); tvg info lists them");
+  command.add_option("--mesh", arguments->meshes,
+                     "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
+  command.add_option(
+      "--skeleton", arguments->skeleton,
+      "a BVH file with the joints of a cache or sequence: frame by frame where it has as many, "
+      "else by time");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");

@@ -24,6 +24,8 @@ class LiveSource final : public FrameSource {
 
   const Mesh& mesh() const override { return source_.mesh(); }
   Metadata metadata() const override { return source_.metadata(); }
+  const Skeleton& skeleton() const override { return source_.skeleton(); }
+  std::span<const float> joint_positions() const override { return source_.joint_positions(); }
   std::optional<std::uint64_t> frame_count() const override { return std::nullopt; }
   Result<bool> read_frame(std::span<float> positions) override;
   bool rewind() override { return false; }

@@ -1,5 +1,6 @@
 #pragma once
 #include "encoder/importers/frame_range.hpp"
+#include "encoder/importers/scene_options.hpp"
 
 #include <memory>
 #include <optional>
@@ -13,11 +14,17 @@ namespace tvg::cli {
 /// What a user names as input.
 struct SourceSpec {
   /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, MDD, or "-" for a cache on standard
-  /// input); or a sequence of mesh files, as a folder or a pattern ("walk_%04d.obj", "walk_####.obj"); or one
-  /// mesh file.
+  /// input); or a sequence of mesh files, as a folder or a pattern ("walk_%04d.obj", "walk_####.obj"); one
+  /// mesh file; or a scene (scene_source.hpp).
   std::vector<std::string> inputs;
   /// The frames wanted, counted from 0 whatever the numbers in the files' names; all where absent.
-  std::optional<FrameRange> frames;
+  std::optional<FrameRange> frames = {};
+  /// For a scene: which clip and meshes, and how finely it is sampled.
+  SceneOptions scene = {};
+  /// A BVH file whose joints go with the frames of a cache or a sequence; none where empty. As many frames as
+  /// the BVH has are taken one to one; otherwise frame i stands at i / fps seconds, where fps is that of
+  /// `scene` or else of the input.
+  std::string skeleton = {};
   /// A PC2 cache that comes through a pipe goes on until the pipe ends, whatever number of frames its header
   /// says. Its frame_count() is then unknown, and read_frame() is kTruncated where the pipe ends inside a
   /// frame.

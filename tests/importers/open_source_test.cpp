@@ -183,7 +183,7 @@ TEST_F(OpenSource, SaysWhatIsWrongWithFilesThatCannotBeRead) {
   expect_error(folder_.path("none"), ExitStatus::kIo, "there is no such file");
   expect_error(folder_.path("none_%04d.obj"), ExitStatus::kIo, "no file is named");
   expect_error(folder_.path("none/f_%04d.obj"), ExitStatus::kIo, "cannot read folder");
-  expect_error(folder_.write("a.fbx", "x"), bad,
+  expect_error(folder_.write("a.blend", "x"), bad,
                "suffix that is not known: meshes are .obj, .ply, .off or .stl");
   expect_error(folder_.write("a.tvg", "x"), bad, "`tvg decode` turns it into meshes");
   expect_error(folder_.write("a.obj", "\x89TVG\r\n\x1a\n"), bad, "`tvg decode` turns it into meshes");

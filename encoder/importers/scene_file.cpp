@@ -1,0 +1,131 @@
+#include "encoder/importers/scene_file.hpp"
+
+#include "cli/mesh_format.hpp"
+#include "encoder/importers/import_error.hpp"
+#include "encoder/importers/input_file.hpp"
+#include "encoder/importers/trial.hpp"
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr std::array<std::string_view, 17> kSuffixes = {
+    ".gltf", ".glb", ".fbx", ".dae", ".x",    ".md5mesh", ".md2", ".md3",     ".mdc",
+    ".mdl",  ".smd", ".b3d", ".3ds", ".ms3d", ".ase",     ".lws", ".mesh.xml"};
+
+/// Processor time that assimp has for a file; the largest characters take a few seconds.
+constexpr unsigned kMostSeconds = 120;
+
+/// FBX says centimetres per unit.
+std::string unit_of_centimetres(double centimetres) {
+  struct Unit {
+    double centimetres;
+    const char* name;
+  };
+  for (const Unit& unit : {Unit{0.1, "mm"}, Unit{1, "cm"}, Unit{100, "m"}, Unit{100000, "km"},
+                           Unit{2.54, "in"}, Unit{30.48, "ft"}}) {
+    if (std::abs(centimetres - unit.centimetres) <= 1e-6 * unit.centimetres) return unit.name;
+  }
+  return "";
+}
+
+Metadata fbx_metadata(const aiScene& scene) {
+  Metadata metadata;
+  if (scene.mMetaData == nullptr) return metadata;
+  double scale = 0;
+  float single_scale = 0;
+  if (!scene.mMetaData->Get("UnitScaleFactor", scale) &&
+      scene.mMetaData->Get("UnitScaleFactor", single_scale)) {
+    scale = double{single_scale};
+  }
+  if (const std::string unit = unit_of_centimetres(scale); !unit.empty()) metadata.emplace("units", unit);
+  std::int32_t up = -1;
+  if (scene.mMetaData->Get("UpAxis", up) && (up == 1 || up == 2)) metadata.emplace("up", up == 1 ? "y" : "z");
+  return metadata;
+}
+
+const aiScene* import(Assimp::Importer& importer, const std::string& path,
+                      std::optional<std::uint32_t> keyframe) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
+  if (keyframe) importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(*keyframe));
+  return importer.ReadFile(path, aiProcess_Triangulate);
+}
+
+/// assimp crashes or hangs on some damaged files (a cut .md5mesh, for one), so a child process goes first.
+void try_import(const SceneFile& file, std::optional<std::uint32_t> keyframe) {
+  const auto action = [&file, keyframe] {
+    Assimp::Importer importer;
+    import(importer, file.path(), keyframe);
+  };
+  switch (run_trial(action, kMostSeconds)) {
+    case TrialResult::kFine:
+      return;
+    case TrialResult::kCrashed:
+      file.fail("it is damaged or no such file as its suffix says: assimp, which reads it, crashes on it");
+    case TrialResult::kTooLong:
+      file.fail(fmt::format("it is damaged or too large: assimp, which reads it, does not end within {} s",
+                            kMostSeconds));
+  }
+}
+
+}  // namespace
+
+const char* const kSceneFormats =
+    "scenes are glTF 2 (.gltf, .glb), .fbx, COLLADA (.dae), .x, .md5mesh, .md2, .md3, .mdc, .mdl, .smd, "
+    ".b3d, .3ds, .ms3d, .ase, .lws or .mesh.xml";
+
+bool is_scene(const std::string& path) {
+  return std::any_of(kSuffixes.begin(), kSuffixes.end(),
+                     [&path](std::string_view suffix) { return has_suffix(path, suffix); });
+}
+
+struct SceneFile::Import {
+  Assimp::Importer importer;
+};
+
+SceneFile::SceneFile(const std::string& path, std::optional<std::uint32_t> keyframe)
+    : path_(path), import_(std::make_unique<Import>()) {
+  // A file that is not there, or may not be read, is told in the system's own words.
+  InputFile readable(path);
+  // Frames after the first come from a file that has been tried.
+  if (keyframe.value_or(0) == 0) try_import(*this, keyframe);
+  std::string reason;
+  try {
+    scene_ = import(import_->importer, path, keyframe);
+    reason = import_->importer.GetErrorString();
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  if (scene_ == nullptr || scene_->mRootNode == nullptr) {
+    fail(fmt::format("it cannot be read as what its suffix says: {}",
+                     reason.empty() ? "it holds no scene" : reason));
+  }
+}
+
+SceneFile::~SceneFile() = default;
+
+Metadata SceneFile::metadata() const {
+  if (has_suffix(path_, ".fbx")) return fbx_metadata(*scene_);
+  // glTF prescribes both; assimp turns and scales COLLADA to the same.
+  if (has_suffix(path_, ".gltf") || has_suffix(path_, ".glb") || has_suffix(path_, ".dae")) {
+    return {{"units", "m"}, {"up", "y"}};
+  }
+  return {};
+}
+
+void SceneFile::fail(const std::string& what) const {
+  throw ImportError(ErrorCode::kInvalidInput, fmt::format("{}: {}", path_, what));
+}
+
+}  // namespace tvg::cli

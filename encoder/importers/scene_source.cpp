@@ -1,0 +1,174 @@
+#include "encoder/importers/scene_source.hpp"
+
+#include "cli/mesh_format.hpp"
+#include "cli/option_values.hpp"
+#include "encoder/importers/bytes.hpp"
+#include "encoder/importers/gltf_keys.hpp"
+#include "encoder/importers/keyframe_source.hpp"
+#include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/scene_file.hpp"
+#include "encoder/importers/scene_skeleton.hpp"
+
+#include <algorithm>
+#include <assimp/scene.h>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr const char* kDefaultFps = "30";
+
+class SceneSource final : public SkippableSource {
+ public:
+  SceneSource(std::string file, SceneNodes nodes, Clip clip, SceneMesh mesh, Metadata metadata, double fps)
+      : file_(std::move(file)),
+        nodes_(std::move(nodes)),
+        clip_(std::move(clip)),
+        mesh_(std::move(mesh)),
+        metadata_(std::move(metadata)),
+        fps_(fps),
+        frame_count_(clip_.frame_count(fps)),
+        rest_(nodes_.rest_pose()),
+        skeleton_(find_skeleton(nodes_, mesh_)) {}
+
+  const Mesh& mesh() const override { return mesh_.mesh; }
+  Metadata metadata() const override { return metadata_; }
+  const Skeleton& skeleton() const override { return skeleton_.skeleton; }
+  std::span<const float> joint_positions() const override { return joint_positions_; }
+  std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
+  Result<bool> read_frame(std::span<float> positions) override;
+  Status skip_frames(std::uint64_t count) override {
+    next_ += count;
+    return {};
+  }
+  bool rewind() override {
+    next_ = 0;
+    return true;
+  }
+
+ private:
+  void pose_morphs(double seconds);
+
+  std::string file_;
+  SceneNodes nodes_;
+  Clip clip_;
+  SceneMesh mesh_;
+  Metadata metadata_;
+  double fps_;
+  std::uint64_t frame_count_;
+  std::vector<Transform> rest_;
+  SceneSkeleton skeleton_;
+  std::uint64_t next_ = 0;
+  // Of the frame read last.
+  std::vector<Transform> local_, global_, carriers_;
+  std::vector<double> weights_, channel_weights_;
+  std::vector<float> joint_positions_;
+};
+
+void SceneSource::pose_morphs(double seconds) {
+  weights_.assign(mesh_.slot_count, 0);
+  for (const MorphSlots& slots : mesh_.slots) {
+    clip_.morphs[slots.channel].at(seconds, channel_weights_);
+    std::copy(channel_weights_.begin(), channel_weights_.end(),
+              weights_.begin() + static_cast<std::ptrdiff_t>(slots.first));
+  }
+}
+
+Result<bool> SceneSource::read_frame(std::span<float> positions) {
+  if (next_ >= frame_count_) return false;
+  const double seconds = std::min(clip_.first + static_cast<double>(next_) / fps_, clip_.last);
+  clip_.pose(seconds, rest_, local_);
+  nodes_.to_scene_space(local_, global_);
+  pose_morphs(seconds);
+  mesh_.pose(global_, weights_, carriers_, positions);
+  skeleton_.pose(global_, joint_positions_);
+  const bool joints_finite = find_non_finite(joint_positions_) == joint_positions_.size();
+  if (const std::size_t bad = find_non_finite(positions); bad < positions.size() || !joints_finite) {
+    return Error{
+        ErrorCode::kInvalidInput,
+        fmt::format("{}: in frame {} the clip moves {} to where coordinates are NaN or infinite", file_,
+                    next_, bad < positions.size() ? fmt::format("vertex {}", bad / 3) : "a joint"),
+        {},
+        {},
+        ""};
+  }
+  ++next_;
+  return true;
+}
+
+void note_clips(const SceneFile& file, std::size_t chosen, bool asked, std::vector<std::string>& notes) {
+  const aiScene& scene = file.scene();
+  if (scene.mNumAnimations < 2 || asked) return;
+  std::vector<std::string> others;
+  for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
+    if (i != chosen) others.push_back(fmt::format("\"{}\"", scene.mAnimations[i]->mName.C_Str()));
+  }
+  notes.push_back(fmt::format("{}: clip \"{}\" is taken; --clip picks another: {}", file.path(),
+                              scene.mAnimations[chosen]->mName.C_Str(), fmt::join(others, ", ")));
+}
+
+void note_keys(const SceneFile& file, std::size_t clip, std::vector<std::string>& notes) {
+  const GltfKeys keys = find_gltf_keys(file.path(), clip);
+  if (keys.has_curved_morphs) {
+    file.fail(
+        "morph weights along cubic splines (CUBICSPLINE) are not read; export the clip with linear keys");
+  }
+  if (!keys.has_steps && !keys.has_curves) return;
+  notes.push_back(fmt::format("{}: {} keys are read as linear ones; export the clip sampled to keep them",
+                              file.path(),
+                              keys.has_steps && keys.has_curves ? "stepped and curved"
+                              : keys.has_steps                  ? "stepped"
+                                                                : "curved"));
+}
+
+void note_mesh(const std::string& path, const SceneMesh& mesh, std::size_t vertices_before,
+               std::vector<std::string>& notes) {
+  if (mesh.parts > 1) notes.push_back(fmt::format("{}: {} meshes merged into one", path, mesh.parts));
+  if (mesh.left_out > 0) {
+    notes.push_back(fmt::format("{}: {} points and lines left out", path, mesh.left_out));
+  }
+  if (mesh.mesh.vertex_count < vertices_before) {
+    notes.push_back(
+        fmt::format("{}: {} vertices welded to {}, those that agree in position, weights and morph targets",
+                    path, vertices_before, mesh.mesh.vertex_count));
+  }
+}
+
+OpenedScene open_clip(const std::string& path, const SceneOptions& options) {
+  const std::string rate = options.fps.empty() ? kDefaultFps : options.fps;
+  const double fps = parse_rate(rate);
+  OpenedScene opened;
+  const SceneFile file(path);
+  SceneNodes nodes(file.scene());
+  Clip clip;
+  if (file.scene().mNumAnimations > 0 || !options.clip.empty()) {
+    const std::size_t index = options.clip.empty() ? 0 : find_clip(file, options.clip);
+    note_clips(file, index, !options.clip.empty(), opened.notes);
+    clip = read_clip(file, nodes, index);
+    note_keys(file, index, opened.notes);
+  } else {
+    opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
+  }
+  SceneMesh mesh = gather_meshes(file, nodes, clip, options.meshes);
+  const std::size_t vertices_before = mesh.positions.size();
+  weld(mesh);
+  note_mesh(path, mesh, vertices_before, opened.notes);
+  nodes.detach();
+  Metadata metadata = file.metadata();
+  metadata.emplace("fps", rate);
+  if (!clip.name.empty()) metadata.emplace("name", clip.name);
+  opened.source = std::make_unique<SceneSource>(path, std::move(nodes), std::move(clip), std::move(mesh),
+                                                std::move(metadata), fps);
+  return opened;
+}
+
+}  // namespace
+
+OpenedScene open_scene(const std::string& path, const SceneOptions& options) {
+  if (const auto frames = keyframe_count(path)) return open_keyframes(path, *frames, options);
+  return open_clip(path, options);
+}
+
+}  // namespace tvg::cli

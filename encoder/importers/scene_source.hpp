@@ -1,0 +1,24 @@
+#pragma once
+#include "encoder/importers/frame_range.hpp"
+#include "encoder/importers/scene_options.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tvg::cli {
+
+/// A scene as frames, with its skeleton, and what a user may want to know of it.
+struct OpenedScene {
+  std::unique_ptr<SkippableSource> source;
+  std::vector<std::string> notes;
+};
+
+/// Opens one clip of a scene and bakes it frame by frame as it is read: keys are interpolated (rotations
+/// along the shortest arc), node transforms applied, skins blended linearly, morph targets added. A scene
+/// without clips is one frame. An MD2 file holds a mesh per frame: all frames are read, each
+/// as it is. Throws ToolError: kUsage (a clip, mesh or rate that is not there), kIo,
+/// kInvalidInput.
+OpenedScene open_scene(const std::string& path, const SceneOptions& options);
+
+}  // namespace tvg::cli
