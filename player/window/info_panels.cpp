@@ -61,7 +61,9 @@ void stream_rows(const PlayerSnapshot& player) {
 void playing_rows(const PlayerSnapshot& player, const InterfaceFacts& facts) {
   const LoaderSnapshot& stream = player.stream;
   row("decoding", fmt::format("{:.1f} ms, at most {:.1f}", stream.mean_decode_ms, stream.max_decode_ms));
-  row("drawing", fmt::format("{:.1f} ms, {:.0f} frames/s", facts.draw_ms, facts.shown_per_second));
+  if (facts.shown_per_second > 1) {
+    row("drawing", fmt::format("{:.1f} ms, {:.0f} frames/s", facts.draw_ms, facts.shown_per_second));
+  }
   row("ahead", fmt::format("{} of {} frames", stream.frames_ahead, stream.ring_capacity));
   row("dropped", fmt::format("{} frames, {} stalls", player.dropped, player.stalls));
   if (!stream.damage.empty()) row("damage", fmt::format("{} places", stream.damage.size()));

@@ -27,7 +27,11 @@ TEST_F(ToolTest, TheReadmesDecoderExampleIsTheOneThatIsCompiledAndRuns) {
 
 TEST_F(ToolTest, TheReadmeNamesEveryCommandAndOption) {
   const std::string readme = read(std::string(TVG_PROJECT) + "/README.md");
-  for (const std::string command : {"encode", "decode", "info", "verify", "compare", "join"}) {
+  std::vector<std::string> commands = {"encode", "decode", "info", "verify", "compare", "join"};
+#ifdef TVG_HAS_PLAYER
+  commands.insert(commands.end(), {"play", "render", "serve"});
+#endif
+  for (const std::string& command : commands) {
     EXPECT_NE(readme.find("`tvg " + command), std::string::npos) << command;
     std::istringstream words(good("tvg " + command + " --help").out);
     for (std::string word; words >> word;) {

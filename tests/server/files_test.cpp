@@ -1,6 +1,7 @@
 #include "nginx.hpp"
 #include "server/file_response.hpp"
 #include "server_toolbox.hpp"
+#include "tests/playback/playback_toolbox.hpp"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -155,6 +156,18 @@ TEST_P(Files, WhatIsNotThereIs404) {
   auto answer = get("/gone.tvg");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 404);
+}
+
+TEST_P(Files, PlayAndSeekAsFromADisk) {
+  const test::Stream stream = make_live_stream(12);
+  folder_.write("clip.tvg", std::string(stream.begin(), stream.end()));
+  const test::DecodedStream expected = test::decode_stream(stream);
+  StreamLoader loader(open_stream_input("http://127.0.0.1:" + std::to_string(port_) + "/clip.tvg"));
+  for (const std::uint64_t frame : {0u, 1u, 2u, 19u, 20u, 6u, 23u}) {
+    if (!loader.heads_for(frame)) loader.seek(frame);
+    ASSERT_NO_FATAL_FAILURE(test::expect_frame(loader, expected.frames[frame])) << frame;
+  }
+  EXPECT_EQ(loader.snapshot().frame_count, 24u);
 }
 
 INSTANTIATE_TEST_SUITE_P(ServedBy, Files, ::testing::Values("tvg", "nginx"),

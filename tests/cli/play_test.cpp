@@ -1,0 +1,117 @@
+#include "tool_test_fixture.hpp"
+
+#ifdef TVG_HAS_PLAYER
+#include "player/view/image.hpp"
+
+#include <unistd.h>
+
+namespace tvg::cli::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Shell functions: `display` starts a display in memory and sets X, its process; `serve` a server with URL U
+/// and process S.
+constexpr const char* kFunctions = R"(
+display() {
+  Xvfb -displayfd 5 -screen 0 800x600x24 5>display 2>/dev/null & X=$!
+  for i in $(seq 300); do [ -s display ] && break; sleep 0.02; done
+  export DISPLAY=:$(cat display)
+}
+serve() {
+  tvg serve . --port 0 >url 2>log & S=$!
+  for i in $(seq 200); do [ -s url ] && break; sleep 0.02; done
+  U=$(cat url)
+}
+)";
+
+class PlayTest : public ToolTest {
+ protected:
+  void SetUp() override {
+    if (::access("/usr/bin/Xvfb", X_OK) != 0) GTEST_SKIP() << "Xvfb is not installed";
+    folder_.write("functions", kFunctions);
+    good("tvg encode hand.obj hand.pc2 -q -o hand.tvg --bits 12:10 --gop 4");
+  }
+
+  /// Runs `text` where there is a display, which is gone afterwards.
+  Outcome on_display(const std::string& text) const {
+    return run(". ./functions; display; " + text + "; R=$?; kill $X; wait $X 2>/dev/null; exit $R");
+  }
+  nlohmann::json report() const { return nlohmann::json::parse(folder_.read("report.json")); }
+};
+
+TEST_F(PlayTest, AFilePlaysToItsEnd) {
+  const Outcome result =
+      on_display("tvg play hand.tvg --once --seconds 3 --size 320x240 --report report.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json figures = report();
+  EXPECT_TRUE(figures["first_frame_seconds"].is_number()) << figures;
+  // A machine that is busy shows fewer frames, but none twice.
+  EXPECT_GE(figures["frames_shown"], 2);
+  EXPECT_EQ(figures["frames_shown"].get<int>() + figures["dropped"].get<int>(), 12) << figures;
+  EXPECT_EQ(figures["damaged_places"], 0);
+}
+
+TEST_F(PlayTest, AScreenshotShowsMeshAndControls) {
+  const Outcome result = on_display(
+      "tvg play hand.tvg --start 5 --overlay importance --size 640x400 --screenshot shot.png --report "
+      "report.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Image shot = read_png(folder_.path("shot.png"));
+  ASSERT_EQ(shot.width, 640);
+  ASSERT_EQ(shot.height, 400);
+  const auto differs = [&shot](int column, int row, int other_column, int other_row) {
+    return !std::equal(shot.pixel(column, row), shot.pixel(column, row) + 3,
+                       shot.pixel(other_column, other_row));
+  };
+  // What is drawn makes a row lively; the background changes from row to row only.
+  int lively = 0;
+  for (int column = 1; column < 640; ++column) lively += differs(column, 170, column - 1, 170) ? 1 : 0;
+  EXPECT_GT(lively, 20) << "no mesh in the middle";
+  EXPECT_TRUE(differs(320, 380, 2, 380)) << "no controls at the bottom";
+}
+
+TEST_F(PlayTest, AStreamPlaysOverHttpWhileItIsServed) {
+  const Outcome result = on_display(
+      "serve; tvg play ${U}hand.tvg --once --seconds 3 --size 320x240 --report report.json; R=$?; kill $S; "
+      "wait $S; "
+      "(exit $R)");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(report()["frames_shown"].get<int>() + report()["dropped"].get<int>(), 12) << report();
+  EXPECT_EQ(report()["bytes_received"], folder_.read("hand.tvg").size());
+}
+
+TEST_F(PlayTest, ALiveStreamPlays) {
+  const Outcome result = on_display(
+      "serve; tvg encode hand.obj hand.pc2 --live --loop --gop 3 --fps 60 -q -o ${U}live/cam & E=$!; "
+      "for i in $(seq 10); do "  // until the stream has begun
+      "tvg play $(cat url)live/cam --seconds 2 --size 320x240 --report report.json; R=$?; [ $R = 0 ] && "
+      "break; "
+      "sleep 0.1; done; kill $E $S; wait $E $S; (exit $R)");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_GE(report()["frames_shown"], 2) << report();
+}
+
+TEST_F(PlayTest, DamageIsCountedAndPlayingGoesOn) {
+  flip_byte("hand.tvg", chunks("hand.tvg", "GOP ").at(1).first + 40);
+  const Outcome result =
+      on_display("tvg play hand.tvg --once --seconds 3 --size 320x240 --report report.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_GE(report()["damaged_places"], 1) << report();
+  EXPECT_GE(report()["frames_shown"], 2) << report();
+}
+
+TEST_F(PlayTest, WhatCannotBePlayedEndsWithAMessage) {
+  expect_failure("env -u DISPLAY -u WAYLAND_DISPLAY tvg play hand.tvg", 4, "tvg render");
+  expect_failure("tvg play gone.tvg", 2, "gone.tvg");
+  expect_failure("tvg play hand.tvg --overlay error", 1, "--ref");
+  expect_failure("tvg play hand.tvg --speed 100", 1, "--speed");
+  const Outcome foreign = on_display("tvg play hand.obj --seconds 1.5 --size 320x240");
+  EXPECT_EQ(foreign.status, 3);
+  EXPECT_THAT(foreign.err, HasSubstr("hand.obj"));
+  EXPECT_THAT(foreign.err, HasSubstr("signature is missing"));
+}
+
+}  // namespace
+}  // namespace tvg::cli::testing
+#endif
