@@ -4,6 +4,8 @@
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "encoder/importers/open_source.hpp"
+#include "encoder/importers/skeleton_file.hpp"
+#include "encoder/measure_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,9 +29,8 @@ struct EncodeArguments {
   std::string frames;
   std::string bits = "11";
   std::string step;
-  std::string important;
-  std::optional<double> threshold;
-  double alpha = Importance().alpha;
+  MeasureArguments measure;
+  std::string skeleton;
   std::string predictor = "elp";
   std::string mode = "elp";
   std::uint32_t gop = EncodeOptions().gop_frames;
@@ -70,14 +71,12 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
     options.fine_bits = kMostBits;
     options.coarse_bits = kMostBits - step.shift;
   }
-  const bool marks = !arguments.important.empty() || arguments.threshold;
-  if (marks && options.fine_bits == options.coarse_bits) {
+  if (arguments.measure.any() && options.fine_bits == options.coarse_bits) {
     throw ToolError(ExitStatus::kUsage,
-                    "--important and --important-above need two resolutions, for example --bits 13:11");
+                    "--measure, --important and what goes with them need two resolutions, for example --bits "
+                    "13:11");
   }
-  if (!arguments.important.empty()) options.importance.share = parse_share(arguments.important);
-  options.importance.threshold = arguments.threshold;
-  options.importance.alpha = arguments.alpha;
+  options.importance = importance_of(arguments.measure);
   options.predictor = std::map<std::string, Predictor>{
       {"space", Predictor::kSpace},
       {"time", Predictor::kTime},
@@ -98,6 +97,8 @@ class WatchedSource final : public FrameSource {
 
   const Mesh& mesh() const override { return source_.mesh(); }
   Metadata metadata() const override { return source_.metadata(); }
+  const Skeleton& skeleton() const override { return source_.skeleton(); }
+  std::span<const float> joint_positions() const override { return source_.joint_positions(); }
   std::optional<std::uint64_t> frame_count() const override { return source_.frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override {
     Result<bool> read = source_.read_frame(positions);
@@ -121,7 +122,12 @@ void run_encode(const EncodeArguments& arguments) {
     spec.frames = parse_frame_range(arguments.frames);
     options.first_frame = spec.frames->first;
   }
-  const OpenedSource opened = open_source(spec);
+  OpenedSource opened = open_source(spec);
+  if (!arguments.skeleton.empty()) {
+    opened.source = with_joints(std::move(opened.source), read_skeleton_file(arguments.skeleton),
+                                arguments.skeleton, options.first_frame);
+  }
+  check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
   if (!arguments.quiet) {
     for (const std::string& note : opened.notes) fmt::print(stderr, "note: {}\n", note);
   }
@@ -180,14 +186,9 @@ void add_encode_command(CLI::App& tool) {
           "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
           "off by more than half a step")
       ->excludes(bits);
-  auto* share =
-      command.add_option("--important", arguments->important,
-                         "share of important vertices where there are two resolutions (default 35%)");
-  command.add_option("--important-above", arguments->threshold, "instead: vertices whose cost is above this")
-      ->excludes(share);
-  command.add_option("--alpha", arguments->alpha, "weight of the change of curvature against its mean")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  add_measure_options(command, arguments->measure);
+  command.add_option("--skeleton", arguments->skeleton,
+                     "the joints of the sequence, frame by frame: JSON as tvg_corpus writes it");
   command.add_option("--mode", arguments->mode, "how frames are coded")
       ->check(CLI::IsMember({"elp"}))
       ->capture_default_str();
