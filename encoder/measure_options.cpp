@@ -121,8 +121,8 @@ std::vector<CriterionWeight> parse_criteria(const std::string& text) {
 void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
   command
       .add_option("--measure", arguments.criteria,
-                  fmt::format("what makes vertices important: criteria with weights, as curv+0.5*skel or "
-                              "--measure=-distance; {}",
+                  fmt::format("what makes vertices important: criteria with weights, as curv+0.5*skel, or as "
+                              "=-distance where the first is negative; {}",
                               criterion_names()))
       ->capture_default_str();
   auto* share = command.add_option("--important", arguments.important,
