@@ -91,7 +91,7 @@ void check_dependents(const MeasureArguments& arguments, const Importance& impor
 
 bool MeasureArguments::any() const {
   return criteria != "curv" || !important.empty() || threshold || alpha || skel_alpha || skel_threshold ||
-         !skel_region.empty() || !viewpoint.empty() || !weights.empty() || !lookahead.empty();
+         !skel_region.empty() || !viewpoint.empty() || !weights.empty() || !lookahead.empty() || smoothing;
 }
 
 std::vector<CriterionWeight> parse_criteria(const std::string& text) {
@@ -173,6 +173,7 @@ Importance importance_of(const MeasureArguments& arguments) {
   importance.skel_alpha = arguments.skel_alpha.value_or(importance.skel_alpha);
   importance.skel_threshold = arguments.skel_threshold;
   if (arguments.skel_region == "weights") importance.skel_region = JointRegion::kHeaviest;
+  importance.smoothing = arguments.smoothing.value_or(importance.smoothing);
   importance.low_delay = arguments.lookahead == "0";
   if (has_criterion(importance, "distance")) {
     if (arguments.viewpoint.empty()) {

@@ -1,5 +1,5 @@
 #pragma once
-#include <memory>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +26,7 @@ struct MeasureArguments {
   std::string viewpoint;
   std::string weights;
   std::string lookahead;
+  std::optional<std::uint32_t> smoothing;
 
   /// Whether any option was given.
   bool any() const;

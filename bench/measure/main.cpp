@@ -31,6 +31,7 @@ struct Settings {
   std::uint32_t gop_frames = 50;
   std::vector<std::string> measures;
   double alpha = 0.5;
+  std::uint32_t smoothing = 0;
   bool extras = true;
 };
 
@@ -39,27 +40,37 @@ struct Marks {
   Importance importance;
 };
 
-Importance by(const Settings& settings, const std::string& criteria, double alpha) {
+Importance by(const Settings& settings, const std::string& criteria, double alpha, std::uint32_t smoothing) {
   Importance marks;
   marks.share = cli::parse_share(settings.share);
   marks.criteria = cli::parse_criteria(criteria);
   marks.alpha = alpha;
+  marks.smoothing = smoothing;
+  return marks;
+}
+
+std::vector<Marks> usual_marks(const Settings& settings, const Experiment& experiment) {
+  std::vector<Marks> marks = {{"curv", by(settings, "curv", 0.5, 0)},
+                              {"curv, static", by(settings, "curv", 0, 0)},
+                              {"curv, change", by(settings, "curv", 1, 0)},
+                              {"change, smooth", by(settings, "curv", 1, 2)},
+                              {"curvature-norm", by(settings, "curvature-norm", 0.5, 0)},
+                              {"velocity", by(settings, "velocity", 0.5, 0)}};
+  if (!experiment.joints) return marks;
+  // SKEL has two values only, so a share would cut through equals: all vertices at dynamic joints are marked.
+  Importance skel = by(settings, "skel", 0.5, 0);
+  skel.threshold = 0.5;
+  marks.push_back({"skel > 0.5", skel});
+  marks.push_back({"curv+skel", by(settings, "curv+skel", 0.5, 0)});
+  marks.push_back({"change+skel", by(settings, "curv+skel", 1, 0)});
   return marks;
 }
 
 std::vector<Marks> all_marks(const Settings& settings, const Experiment& experiment) {
-  std::vector<Marks> marks = {{"curv", by(settings, "curv", 0.5)}};
-  if (settings.measures.empty()) {
-    marks.push_back({"curv, static", by(settings, "curv", 0)});
-    marks.push_back({"curvature-norm", by(settings, "curvature-norm", 0.5)});
-    marks.push_back({"velocity", by(settings, "velocity", 0.5)});
-    if (experiment.joints) {
-      marks.push_back({"skel", by(settings, "skel", 0.5)});
-      marks.push_back({"curv+skel", by(settings, "curv+skel", 0.5)});
-    }
-  }
+  if (settings.measures.empty()) return usual_marks(settings, experiment);
+  std::vector<Marks> marks = {{"curv", by(settings, "curv", 0.5, 0)}};
   for (const std::string& measure : settings.measures) {
-    const Importance importance = by(settings, measure, settings.alpha);
+    const Importance importance = by(settings, measure, settings.alpha, settings.smoothing);
     if (!uses_skeleton(importance) || experiment.joints) marks.push_back({measure, importance});
   }
   return marks;
@@ -167,6 +178,17 @@ void write_text(const std::string& path, const std::string& text) {
   file.finish();
 }
 
+/// Plots show the curves that tell a story, or they could not be read.
+std::vector<Curve> plotted(const std::vector<Curve>& curves) {
+  std::vector<Curve> chosen;
+  for (const Curve& curve : curves) {
+    const bool left_out = curve.name == "curv, change" || curve.name == "curvature-norm" ||
+                          curve.name == "skel > 0.5" || curve.name == "change+skel";
+    if (!left_out) chosen.push_back(curve);
+  }
+  return chosen;
+}
+
 Experiment load_experiment(const Settings& settings, const std::string& name) {
   if (const corpus::CorpusEntry* entry = corpus::find_corpus_entry(name)) {
     corpus::CorpusSequence made = entry->make(*corpus::named_size("demo"));
@@ -272,8 +294,8 @@ void run_all(const Settings& settings) {
     for (const auto& [figure, suffix] : {std::pair(kRms, "rms"), std::pair(kDeforming, "deforming"),
                                          std::pair(kMoving, "moving"), std::pair(kSted, "sted")}) {
       write_text(settings.folder + "/" + name + "_" + suffix + ".svg",
-                 plot_svg(name + ": " + kFigureNames[figure], comparison.uniform, comparison.marked, figure,
-                          settings.coarser_bits));
+                 plot_svg(name + ": " + kFigureNames[figure], comparison.uniform, plotted(comparison.marked),
+                          figure, settings.coarser_bits));
     }
   }
   if (!settings.folder.empty()) write_text(settings.folder + "/measure.json", results.dump(2) + "\n");
@@ -303,6 +325,7 @@ int main(int argc, char** argv) {
       ->expected(1)
       ->take_all();
   app.add_option("--alpha", settings.alpha, "alpha of these")->check(CLI::Range(0.0, 1.0));
+  app.add_option("--smooth", settings.smoothing, "how often the cost of these is averaged over neighbours");
   app.add_flag("!--only-marks", settings.extras, "neither speed nor Table 1");
   CLI11_PARSE(app, argc, argv);
   try {

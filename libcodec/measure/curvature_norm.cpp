@@ -59,11 +59,11 @@ void add_face(const Face& face, std::span<const float> positions, std::vector<Ri
   const Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
   const double twice_area = normal.norm();
   if (!(twice_area > 0)) return;
-  std::array<double, 3> cot, angle;
+  std::array<double, 3> cot{}, angle{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double dot = (at[(k + 1) % 3] - at[k]).dot(at[(k + 2) % 3] - at[k]);
     cot[k] = dot / twice_area;
-    angle[k] = std::atan2(twice_area, dot);
+    angle[k] = k < 2 ? std::atan2(twice_area, dot) : std::numbers::pi - angle[0] - angle[1];
   }
   const bool obtuse = *std::min_element(cot.begin(), cot.end()) < 0;
   for (std::size_t k = 0; k < 3; ++k) {

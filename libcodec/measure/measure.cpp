@@ -68,6 +68,9 @@ Status check_importance(const Importance& importance, const Mesh& mesh, const Sk
   if (!(importance.alpha >= 0 && importance.alpha <= 1)) {
     return invalid_argument("alpha must lie between 0 and 1");
   }
+  if (importance.smoothing > kMaxSmoothing) {
+    return invalid_argument("the cost can be averaged " + std::to_string(kMaxSmoothing) + " times at most");
+  }
   if (importance.criteria.empty()) return invalid_argument("the measure needs at least one criterion");
   for (const CriterionWeight& term : importance.criteria) {
     const Criterion* criterion = find_criterion(term.name);
@@ -91,6 +94,7 @@ Result<Measure> measure(const Mesh& mesh, std::span<const FramePositions> frames
     return status.error();
   Measure result;
   result.cost = cost(terms_of(importance), {mesh, frames, importance, skeleton, joints});
+  smooth_cost(mesh, importance.smoothing, result.cost);
   result.flags = importance.threshold ? flag_above(result.cost, *importance.threshold)
                                       : flag_highest_share(result.cost, importance.share);
   if (with_joints) {

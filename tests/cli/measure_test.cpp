@@ -40,6 +40,7 @@ TEST_F(MeasureTest, MarksByEveryCriterion) {
       "--measure weights --weights w.txt",
       "--measure velocity --important 20%",
       "--measure velocity --important-above 0.001",
+      "--smooth 2",
       "--lookahead 0"};
   std::vector<std::string> streams = {curv};
   for (const std::string& option : options) {

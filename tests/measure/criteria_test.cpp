@@ -86,6 +86,14 @@ TEST(CheckImportance, RefusesCriteriaThatAreNotThere) {
   EXPECT_EQ(code({{"curv", 1}, {"velocity", std::numeric_limits<double>::infinity()}}), wrong);
 }
 
+TEST(CheckImportance, RefusesMoreSmoothingThanAnyoneNeeds) {
+  Importance importance;
+  importance.smoothing = kMaxSmoothing;
+  EXPECT_TRUE(check_importance(importance, kPoints, {}).ok());
+  importance.smoothing = kMaxSmoothing + 1;
+  EXPECT_FALSE(check_importance(importance, kPoints, {}).ok());
+}
+
 TEST(MeasureOfFrames, RefusesSizesThatDoNotFit) {
   Importance importance;
   const std::vector<FramePositions> frames(2, FramePositions(6));

@@ -28,11 +28,18 @@ enum class JointRegion : std::uint8_t {
   kHeaviest,  ///< the one of the largest skin weight, where the skeleton knows it
 };
 
+constexpr std::uint32_t kMaxSmoothing = 1000;
+
 /// What makes vertices important (Algorithm 1).
 struct Importance {
   double share = 0.35;              ///< the share of vertices with the highest cost, 0 to 1
   std::optional<double> threshold;  ///< instead: every vertex whose cost is above this
   std::vector<CriterionWeight> criteria = {{"curv", 1.0}};  ///< the cost is their weighted sum; at least one
+
+  /// How often the cost is averaged over each vertex and its neighbours before vertices are flagged, at most
+  /// kMaxSmoothing. Vertices are predicted from their neighbours, so marks in one piece cost fewer bytes than
+  /// scattered ones.
+  std::uint32_t smoothing = 0;
 
   double alpha = 0.5;  ///< of curv, curvature-norm (Eq. 3): weight of the change against the mean, 0 to 1
   /// Of skel (Eq. 6): the value of vertices at dynamic joints, 0 to 1; others have 1 - skel_alpha.
