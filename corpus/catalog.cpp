@@ -11,7 +11,7 @@ namespace {
 
 CorpusSequence hand(const SequenceSize& size) {
   SkinnedSequence made = make_hand(size);
-  return {std::move(made.sequence), std::move(made.skeleton)};
+  return {std::move(made.sequence), std::move(made.joints)};
 }
 CorpusSequence face(const SequenceSize& size) {
   return {make_face(size), std::nullopt};

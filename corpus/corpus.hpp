@@ -19,16 +19,9 @@ struct SequenceSize {
   std::uint32_t frames = 60;  ///< frames at 30 per second, from 1; more frames go on with the motion
 };
 
-/// Joints that moved a mesh.
-struct Skeleton {
-  std::vector<std::string> joint_names;    ///< [joint]
-  std::vector<std::int32_t> parents;       ///< [joint]: index of the parent, always smaller; -1 for the root
-  std::vector<std::vector<float>> frames;  ///< [frame][joint][xyz], in the units of the mesh
-};
-
 struct SkinnedSequence {
   Sequence sequence;
-  Skeleton skeleton;
+  JointTracks joints;  ///< in the units of the mesh, with the heaviest joint of each vertex
 };
 
 /// A hand that waves and curls its fingers one after the other: one closed component of genus 0, smooth
@@ -68,10 +61,10 @@ struct SoupSequence {
 /// faces in random order.
 SoupSequence make_soup(const SequenceSize& size);
 
-/// A sequence by name, with its skeleton where it has one.
+/// A sequence by name, with its joints where it has some.
 struct CorpusSequence {
   Sequence sequence;
-  std::optional<Skeleton> skeleton;
+  std::optional<JointTracks> joints;
 };
 
 struct CorpusEntry {

@@ -3,6 +3,7 @@
 #include "corpus/exact_math.hpp"
 #include "corpus/surface.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -187,6 +188,19 @@ Skeleton hand_skeleton(const std::array<Finger, kFingers>& fingers) {
   return skeleton;
 }
 
+/// The joint of each vertex's largest weight; every pose is that of a joint.
+std::vector<std::uint32_t> heaviest_joints(const std::vector<SkinnedVertex>& skinned) {
+  std::vector<std::uint32_t> joints;
+  for (const SkinnedVertex& vertex : skinned) {
+    const auto heaviest = std::max_element(vertex.weights.begin(), vertex.weights.end());
+    const auto pose = static_cast<std::size_t>(heaviest - vertex.weights.begin());
+    // Pose 1 + 3 f + j is that of joint 1 + 4 f + j: the tips have none of their own.
+    joints.push_back(
+        static_cast<std::uint32_t>(pose == 0 ? 0 : 1 + (pose - 1) / 3 * kJointsPerFinger + (pose - 1) % 3));
+  }
+  return joints;
+}
+
 /// Subdivided until another step would lead further away from the wanted size than it is now.
 Cage subdivide_to(Cage cage, std::uint32_t vertices) {
   cage = subdivide(cage);
@@ -201,7 +215,7 @@ SkinnedSequence make_hand(const SequenceSize& size) {
   const std::array<Finger, kFingers> fingers = hand_fingers();
   const Cage cage = subdivide_to(make_cage(fingers), size.vertices);
   SkinnedSequence hand;
-  hand.skeleton = hand_skeleton(fingers);
+  hand.joints.skeleton = hand_skeleton(fingers);
   Mesh& mesh = hand.sequence.mesh;
   mesh.vertex_count = static_cast<std::uint32_t>(cage.vertices.size());
   for (const auto& [a, b, c, d] : cage.quads) {
@@ -210,6 +224,7 @@ SkinnedSequence make_hand(const SequenceSize& size) {
   }
   std::vector<SkinnedVertex> skinned;
   for (const CageVertex& vertex : cage.vertices) skinned.push_back(skin(vertex, fingers));
+  hand.joints.skeleton.heaviest_joint = heaviest_joints(skinned);
 
   std::vector<Vec3> points(cage.vertices.size());
   for (std::uint32_t frame = 0; frame < size.frames; ++frame) {
@@ -223,7 +238,7 @@ SkinnedSequence make_hand(const SequenceSize& size) {
       points[v] = sum;
     }
     hand.sequence.frames.push_back(to_frame(points));
-    hand.skeleton.frames.push_back(joint_positions(fingers, poses));
+    hand.joints.frames.push_back(joint_positions(fingers, poses));
   }
   hand.sequence.metadata = {{"name", "hand"}, {"fps", "30"}, {"units", "cm"}, {"up", "y"}};
   return hand;

@@ -73,9 +73,9 @@ void make(const Arguments& arguments) {
   const std::string stem = (std::filesystem::path(arguments.folder) / arguments.name).string();
   write_obj(stem + ".obj", made.sequence);
   write_pc2(stem + ".pc2", made.sequence);
-  if (made.skeleton) write_skeleton(stem + ".skeleton.json", *made.skeleton);
+  if (made.joints) write_skeleton(stem + ".skeleton.json", *made.joints);
   std::printf("%s.obj, .pc2%s: %u vertices, %zu faces, %u frames\n", stem.c_str(),
-              made.skeleton ? ", .skeleton.json" : "", made.sequence.mesh.vertex_count,
+              made.joints ? ", .skeleton.json" : "", made.sequence.mesh.vertex_count,
               made.sequence.mesh.faces.size(), size.frames);
 }
 

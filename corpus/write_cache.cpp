@@ -62,7 +62,8 @@ void write_pc2(const std::string& path, const Sequence& sequence) {
   file.finish();
 }
 
-void write_skeleton(const std::string& path, const Skeleton& skeleton) {
+void write_skeleton(const std::string& path, const JointTracks& tracks) {
+  const Skeleton& skeleton = tracks.skeleton;
   nlohmann::json joints = nlohmann::json::array();
   for (std::size_t j = 0; j < skeleton.joint_names.size(); ++j) {
     nlohmann::json parent = nullptr;
@@ -70,13 +71,14 @@ void write_skeleton(const std::string& path, const Skeleton& skeleton) {
     joints.push_back({{"name", skeleton.joint_names[j]}, {"parent", parent}});
   }
   nlohmann::json frames = nlohmann::json::array();
-  for (const std::vector<float>& frame : skeleton.frames) {
+  for (const std::vector<float>& frame : tracks.frames) {
     nlohmann::json positions = nlohmann::json::array();
     for (std::size_t k = 0; k < frame.size(); k += 3)
       positions.push_back({frame[k], frame[k + 1], frame[k + 2]});
     frames.push_back(std::move(positions));
   }
-  const nlohmann::json document = {{"joints", std::move(joints)}, {"frames", std::move(frames)}};
+  nlohmann::json document = {{"joints", std::move(joints)}, {"frames", std::move(frames)}};
+  if (!skeleton.heaviest_joint.empty()) document["heaviest_joint"] = skeleton.heaviest_joint;
   cli::AtomicFile file(path);
   file.write(document.dump() + '\n');
   file.finish();

@@ -136,6 +136,9 @@ void print_json(const ComparisonReport& report) {
       {"kg_percent", finite_or_null(report.kg_percent)},
       {"mean_quadric_error", report.mean_quadric_error},
       {"max_quadric_error", report.max_quadric_error},
+      {"sted", report.sted},
+      {"sted_spatial", report.sted_spatial},
+      {"sted_temporal", report.sted_temporal},
       {"hausdorff", nullptr},
       {"relative_hausdorff", nullptr},
       {"hausdorff_frames", report.hausdorff_frames}};
@@ -160,6 +163,8 @@ void print_text(const ComparisonReport& report) {
   fmt::print("  {:<24}{:>14.5f} %\n", "KG error", report.kg_percent);
   fmt::print("  {:<24}{:>14.6g} mean, {:.6g} maximum\n", "quadric error", report.mean_quadric_error,
              report.max_quadric_error);
+  fmt::print("  {:<24}{:>14.6g} spatial {:.6g}, temporal {:.6g}\n", "STED", report.sted, report.sted_spatial,
+             report.sted_temporal);
   if (report.hausdorff) {
     line("Hausdorff", *report.hausdorff, report.relative_hausdorff.value_or(0));
     fmt::print("  {:<24}{:>14} frames\n", "  measured at", report.hausdorff_frames);

@@ -1,9 +1,12 @@
 #include "cli/commands.hpp"
+#include "cli/mesh_format.hpp"
 #include "cli/option_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
 #include "encoder/importers/open_source.hpp"
+#include "encoder/importers/skeleton_file.hpp"
 #include "encoder/live_source.hpp"
+#include "encoder/measure_options.hpp"
 #include "encoder/stream_output.hpp"
 
 #include <CLI/CLI.hpp>
@@ -30,9 +33,7 @@ struct EncodeArguments {
   std::string frames;
   std::string bits = "11";
   std::string step;
-  std::string important;
-  std::optional<double> threshold;
-  double alpha = Importance().alpha;
+  MeasureArguments measure;
   std::string predictor = "elp";
   std::string mode = "elp";
   std::optional<std::uint32_t> gop;
@@ -78,14 +79,12 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
     options.fine_bits = kMostBits;
     options.coarse_bits = kMostBits - step.shift;
   }
-  const bool marks = !arguments.important.empty() || arguments.threshold;
-  if (marks && options.fine_bits == options.coarse_bits) {
+  if (arguments.measure.any() && options.fine_bits == options.coarse_bits) {
     throw ToolError(ExitStatus::kUsage,
-                    "--important and --important-above need two resolutions, for example --bits 13:11");
+                    "--measure, --important and what goes with them need two resolutions, for example --bits "
+                    "13:11");
   }
-  if (!arguments.important.empty()) options.importance.share = parse_share(arguments.important);
-  options.importance.threshold = arguments.threshold;
-  options.importance.alpha = arguments.alpha;
+  options.importance = importance_of(arguments.measure);
   options.predictor = std::map<std::string, Predictor>{
       {"space", Predictor::kSpace},
       {"time", Predictor::kTime},
@@ -164,13 +163,19 @@ void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
-  spec.skeleton = arguments.skeleton;
+  const bool motion_capture = has_suffix(arguments.skeleton, ".bvh");
+  if (motion_capture) spec.skeleton = arguments.skeleton;
   spec.open_ended = arguments.live;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     options.first_frame = spec.frames->first;
   }
-  const OpenedSource opened = open_source(spec);
+  OpenedSource opened = open_source(spec);
+  if (!arguments.skeleton.empty() && !motion_capture) {
+    opened.source = with_joints(std::move(opened.source), read_skeleton_file(arguments.skeleton),
+                                arguments.skeleton, options.first_frame);
+  }
+  check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
   if (!arguments.quiet) {
     for (const std::string& note : opened.notes) fmt::print(stderr, "note: {}\n", note);
   }
@@ -229,14 +234,7 @@ void add_encode_command(CLI::App& tool) {
           "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
           "off by more than half a step")
       ->excludes(bits);
-  auto* share =
-      command.add_option("--important", arguments->important,
-                         "share of important vertices where there are two resolutions (default 35%)");
-  command.add_option("--important-above", arguments->threshold, "instead: vertices whose cost is above this")
-      ->excludes(share);
-  command.add_option("--alpha", arguments->alpha, "weight of the change of curvature against its mean")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  add_measure_options(command, arguments->measure);
   command.add_option("--mode", arguments->mode, "how frames are coded")
       ->check(CLI::IsMember({"elp"}))
       ->capture_default_str();
@@ -256,10 +254,10 @@ void add_encode_command(CLI::App& tool) {
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
   command.add_option("--mesh", arguments->meshes,
                      "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
-  command.add_option(
-      "--skeleton", arguments->skeleton,
-      "a BVH file with the joints of a cache or sequence: frame by frame where it has as many, "
-      "else by time");
+  command.add_option("--skeleton", arguments->skeleton,
+                     "the joints of a cache or sequence: a BVH file (frame by frame where it has as many, "
+                     "else by time), or JSON "
+                     "as tvg_corpus writes it");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <deque>
 #include <future>
+#include <memory>
 #include <new>
 #include <string>
 
@@ -31,12 +32,6 @@ Status check_options(const EncodeOptions& options) {
   }
   if (options.step && !(std::isfinite(*options.step) && *options.step > 0)) {
     return invalid_argument("the step must be a positive length in the mesh's units");
-  }
-  if (!(options.importance.share >= 0 && options.importance.share <= 1)) {
-    return invalid_argument("the share of important vertices must lie between 0 and 1");
-  }
-  if (!(options.importance.alpha >= 0 && options.importance.alpha <= 1)) {
-    return invalid_argument("alpha must lie between 0 and 1");
   }
   if (options.predictor > Predictor::kElp) return invalid_argument("there is no such predictor");
   if (options.first_frame > kMaxFirstFrame)
@@ -101,7 +96,7 @@ class GopQueue {
 
   Status add(GopInput input, const CodedMesh& mesh, const EncodeOptions& options,
              const StreamLimits& limits) {
-    const auto frame_count = static_cast<std::uint32_t>(input.frames.size());
+    const auto frame_count = static_cast<std::uint32_t>(input.content->frames.size());
     const auto policy = threads_ > 1 ? std::launch::async : std::launch::deferred;
     pending_.push_back({frame_count, std::async(policy, [input = std::move(input), &mesh, &options, &limits] {
                           return encode_gop(input, mesh, options, limits);
@@ -161,6 +156,57 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
   return std::optional(box);
 }
 
+/// Where the joints are in the frame that was read last, which all have to be somewhere.
+Result<std::vector<float>> read_joints(const FrameSource& source, std::uint64_t number) {
+  const std::span<const float> joints = source.joint_positions();
+  const std::size_t joint_count = source.skeleton().joint_names.size();
+  const auto invalid = [number](std::string message) {
+    return Error{ErrorCode::kInvalidInput, std::move(message), {}, number, ""};
+  };
+  if (joints.size() != 3 * joint_count) {
+    return invalid("there are positions for " + std::to_string(joints.size() / 3) + " of the skeleton's " +
+                   std::to_string(joint_count) + " joints");
+  }
+  if (!std::all_of(joints.begin(), joints.end(), [](float x) { return std::isfinite(x); })) {
+    return invalid("a joint has a coordinate that is infinite or not a number");
+  }
+  return std::vector<float>(joints.begin(), joints.end());
+}
+
+/// The frames of the next GOP, and their box.
+struct GopRead {
+  GopFrames content;
+  BoundingBox box;
+  bool at_end = false;  ///< of the sequence
+};
+
+Result<GopRead> read_gop(FrameSource& source, const EncodeOptions& options, std::uint64_t number) {
+  const bool with_joints = uses_skeleton(options.importance);
+  GopRead gop;
+  for (; gop.content.frames.size() < options.gop_frames; ++number) {
+    FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
+    const Result<bool> read = read_checked(source, frame, number);
+    if (!read) return read.error();
+    gop.at_end = !*read;
+    if (gop.at_end) break;
+    gop.box.extend(frame);
+    gop.content.frames.push_back(std::move(frame));
+    if (!with_joints) continue;
+    Result<std::vector<float>> joints = read_joints(source, number);
+    if (!joints) return joints.error();
+    gop.content.joints.push_back(std::move(*joints));
+  }
+  return gop;
+}
+
+/// The first frame alone.
+std::shared_ptr<const GopFrames> first_frame_of(const GopFrames& content) {
+  auto first = std::make_shared<GopFrames>();
+  first->frames.push_back(content.frames.front());
+  if (!content.joints.empty()) first->joints.push_back(content.joints.front());
+  return first;
+}
+
 /// The encoding pipeline: frames → GOPs → chunks.
 Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                                     const EncodeProgress& progress) {
@@ -180,26 +226,22 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
     return status.error();
 
   GopQueue queue(writer, options.threads, progress, source.frame_count());
+  std::shared_ptr<const GopFrames> previous;
   std::uint64_t number = 0;
-  for (bool more = true; more;) {
-    GopInput gop;
-    gop.first_frame = options.first_frame + number;
-    BoundingBox gop_box;
-    while (gop.frames.size() < options.gop_frames) {
-      FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
-      const Result<bool> read = read_checked(source, frame, number);
-      if (!read) return read.error();
-      more = *read;
-      if (!more) break;
-      gop_box.extend(frame);
-      gop.frames.push_back(std::move(frame));
-      ++number;
-    }
-    if (gop.frames.empty()) break;
-    const Result<Lattice> lattice = lattice_over(*whole_box ? **whole_box : gop_box, options.fine_bits,
+  for (bool at_end = false; !at_end;) {
+    Result<GopRead> read = read_gop(source, options, number);
+    if (!read) return read.error();
+    at_end = read->at_end;
+    if (read->content.frames.empty()) break;
+    const Result<Lattice> lattice = lattice_over(*whole_box ? **whole_box : read->box, options.fine_bits,
                                                  options.coarse_bits, options.step);
     if (!lattice) return lattice.error();
-    gop.lattice = *lattice;
+    const auto content = std::make_shared<const GopFrames>(std::move(read->content));
+    if (!previous) previous = first_frame_of(*content);
+    GopInput gop{content, options.importance.low_delay ? previous : content, &source.skeleton(),
+                 options.first_frame + number, *lattice};
+    number += content->frames.size();
+    previous = content;
     if (Status status = queue.add(std::move(gop), mesh.coded, options, limits); !status.ok())
       return status.error();
   }
@@ -215,6 +257,8 @@ Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, c
                             const EncodeProgress& progress) {
   if (Status status = check_options(options); !status.ok()) return status.error();
   if (Status status = check_mesh(source.mesh()); !status.ok()) return status.error();
+  if (Status status = check_importance(options.importance, source.mesh(), source.skeleton()); !status.ok())
+    return status.error();
   try {
     return encode_checked(source, options, sink, progress);
   } catch (const std::bad_alloc&) {

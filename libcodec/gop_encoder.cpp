@@ -3,27 +3,26 @@
 #include "container/checksum.hpp"
 #include "container/layout.hpp"
 #include "entropy/range_coder.hpp"
-#include "measure/criterion.hpp"
-#include "measure/importance.hpp"
 #include "prediction/frame_coder.hpp"
 #include "quantization/flag_coder.hpp"
 
 #include <algorithm>
+
+#include <tvg/measure.hpp>
 
 namespace tvg {
 
 namespace {
 
 /// Algorithm 1: flags in traversal order; empty when there is one lattice only.
-std::vector<std::uint8_t> choose_flags(const GopInput& input, const CodedMesh& mesh,
-                                       const Importance& importance) {
-  if (!input.lattice.hybrid()) return {};
-  const std::vector<double> costs = cost(default_terms(), {mesh.mesh, input.frames, importance.alpha});
-  const std::vector<std::uint8_t> by_vertex = importance.threshold
-                                                  ? flag_above(costs, *importance.threshold)
-                                                  : flag_highest_share(costs, importance.share);
-  std::vector<std::uint8_t> flags(by_vertex.size());
-  for (std::size_t v = 0; v < flags.size(); ++v) flags[v] = by_vertex[mesh.order[v]];
+Result<std::vector<std::uint8_t>> choose_flags(const GopInput& input, const CodedMesh& mesh,
+                                               const Importance& importance) {
+  if (!input.lattice.hybrid()) return std::vector<std::uint8_t>();
+  const GopFrames& seen = *input.marked_by;
+  const Result<Measure> measured = measure(mesh.mesh, seen.frames, *input.skeleton, seen.joints, importance);
+  if (!measured) return measured.error();
+  std::vector<std::uint8_t> flags(measured->flags.size());
+  for (std::size_t v = 0; v < flags.size(); ++v) flags[v] = measured->flags[mesh.order[v]];
   return flags;
 }
 
@@ -47,7 +46,9 @@ void quantize_frame(const FramePositions& frame, const CodedMesh& mesh, std::spa
 Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedMesh& mesh,
                                              const EncodeOptions& options, const StreamLimits& limits) {
   const Lattice& lattice = input.lattice;
-  std::vector<std::uint8_t> flags = choose_flags(input, mesh, options.importance);
+  const Result<std::vector<std::uint8_t>> chosen = choose_flags(input, mesh, options.importance);
+  if (!chosen) return chosen.error();
+  std::vector<std::uint8_t> flags = *chosen;
   std::vector<std::uint8_t> coded_flags;
   RangeEncoder coder;
   if (lattice.hybrid()) {
@@ -57,7 +58,7 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
 
   ByteWriter gop;
   const std::vector<std::uint8_t> header = write_gop_header(
-      {input.first_frame, static_cast<std::uint32_t>(input.frames.size()),
+      {input.first_frame, static_cast<std::uint32_t>(input.content->frames.size()),
        static_cast<std::uint8_t>(options.predictor), static_cast<std::uint8_t>(lattice.fine_bits),
        static_cast<std::uint8_t>(lattice.coarse_bits), lattice.origin, lattice.step, coded_flags});
   write_packet(gop, 0, header);
@@ -67,7 +68,7 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
   Hasher digest;
   std::size_t largest_packet = header.size();
   std::uint32_t packet_index = 0;
-  for (const FramePositions& frame : input.frames) {
+  for (const FramePositions& frame : input.content->frames) {
     frames.next_frame();
     quantize_frame(frame, mesh, flags, lattice, frames.indices());
     frames.code(coder);

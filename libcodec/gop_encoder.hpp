@@ -3,16 +3,25 @@
 #include "quantization/lattice.hpp"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <tvg/encoder.hpp>
 
 namespace tvg {
 
-/// The frames of one GOP and where they lie.
+/// A run of frames in memory.
+struct GopFrames {
+  std::vector<FramePositions> frames;      ///< [frame][vertex][xyz], in the order of the input mesh
+  std::vector<std::vector<float>> joints;  ///< [frame][joint][xyz]; empty unless the measure uses them
+};
+
+/// One GOP and where it lies. Frames are shared: those of one GOP may mark the next.
 struct GopInput {
-  std::vector<FramePositions> frames;  ///< [frame][vertex][xyz], in the order of the input mesh
-  std::uint64_t first_frame = 0;       ///< in the sequence the frames come from
+  std::shared_ptr<const GopFrames> content;
+  std::shared_ptr<const GopFrames> marked_by;  ///< what the measure looks at
+  const Skeleton* skeleton = nullptr;
+  std::uint64_t first_frame = 0;  ///< in the sequence the frames come from
   Lattice lattice;
 };
 

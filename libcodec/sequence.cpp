@@ -9,6 +9,15 @@ const Skeleton& FrameSource::skeleton() const {
   return none;
 }
 
+const Skeleton& SequenceSource::skeleton() const {
+  return joints_ != nullptr ? joints_->skeleton : FrameSource::skeleton();
+}
+
+std::span<const float> SequenceSource::joint_positions() const {
+  if (joints_ == nullptr || next_ == 0 || next_ > joints_->frames.size()) return {};
+  return joints_->frames[next_ - 1];
+}
+
 Result<bool> SequenceSource::read_frame(std::span<float> positions) {
   if (next_ == sequence_.frames.size()) return false;
   const FramePositions& frame = sequence_.frames[next_];

@@ -3,36 +3,43 @@
 #include <string_view>
 #include <vector>
 
-#include <tvg/mesh.hpp>
-#include <tvg/sequence.hpp>
+#include <tvg/measure.hpp>
 
-// The measure (the paper's Eq. 2): criteria by name, each of which says how much every vertex matters to the
-// animation.
+// Criteria by name, each of which says how much every vertex matters to the animation (Eq. 2).
 namespace tvg {
 
 struct CriterionInput {
   const Mesh& mesh;
-  std::span<const FramePositions> frames;  ///< of one GOP, [frame][vertex][xyz]
-  double alpha;                            ///< 0 to 1: weight of change against state
+  std::span<const FramePositions> frames;  ///< those measured, [frame][vertex][xyz]; at least one
+  const Importance& options;
+  const Skeleton& skeleton;
+  std::span<const std::vector<float>> joints;  ///< [frame][joint][xyz]; empty without `uses_skeleton`
 };
 
 struct Criterion {
   std::string_view name;
-  std::vector<double> (*evaluate)(const CriterionInput&);  ///< [vertex]
+  std::string_view description;                            ///< one line
+  std::vector<double> (*evaluate)(const CriterionInput&);  ///< [vertex], finite
+  /// Whether the criterion finds what it needs; null where it needs nothing but frames.
+  Status (*check)(const Importance&, const Mesh&, const Skeleton&) = nullptr;
+  bool uses_skeleton = false;
 };
 
 /// Every criterion there is. To add one, write its file and add its line to the table in criterion.cpp.
 std::span<const Criterion> criteria();
+
+/// The criterion of that name, or null.
+const Criterion* find_criterion(std::string_view name);
 
 struct WeightedCriterion {
   const Criterion* criterion;
   double weight;  ///< may be negative
 };
 
-/// The terms that choose important vertices unless the caller says otherwise.
-std::span<const WeightedCriterion> default_terms();
-
 /// Eq. 2: c_i = sum of w_k f_k(i), [vertex].
 std::vector<double> cost(std::span<const WeightedCriterion> terms, const CriterionInput& input);
+
+/// The criteria that `importance` names; all names are known.
+std::vector<WeightedCriterion> terms_of(const Importance& importance);
 
 }  // namespace tvg

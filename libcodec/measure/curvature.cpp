@@ -59,24 +59,31 @@ std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
   return curvature;
 }
 
-std::vector<double> curvature_criterion(const CriterionInput& input) {
-  const OneRings rings(input.mesh);
+std::vector<double> change_and_mean(const CriterionInput& input, const FrameCurvature& curvature_of) {
   const std::size_t vertex_count = input.mesh.vertex_count;
   const auto frame_count = static_cast<double>(input.frames.size());
   std::vector<std::vector<double>> curvature;  // [frame][vertex]
   std::vector<double> mean(vertex_count, 0.0);
   for (const FramePositions& frame : input.frames) {
-    curvature.push_back(vertex_curvature(input.mesh, rings, frame));
+    curvature.push_back(curvature_of(frame));
     for (std::size_t v = 0; v < vertex_count; ++v) mean[v] += curvature.back()[v] / frame_count;
   }
-  std::vector<double> value(vertex_count, 0.0);
-  for (std::size_t v = 0; v < vertex_count; ++v) {
-    double deviation = 0;
-    for (const std::vector<double>& frame : curvature)
-      deviation += std::abs(frame[v] - mean[v]) / frame_count;
-    value[v] = input.alpha * deviation + (1 - input.alpha) * mean[v];
+  std::vector<double> deviation(vertex_count, 0.0);
+  for (const std::vector<double>& frame : curvature) {
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+      deviation[v] += std::abs(frame[v] - mean[v]) / frame_count;
+    }
   }
+  const double alpha = input.options.alpha;
+  std::vector<double> value(vertex_count);
+  for (std::size_t v = 0; v < vertex_count; ++v) value[v] = alpha * deviation[v] + (1 - alpha) * mean[v];
   return value;
+}
+
+std::vector<double> curvature_criterion(const CriterionInput& input) {
+  const OneRings rings(input.mesh);
+  return change_and_mean(
+      input, [&](const FramePositions& frame) { return vertex_curvature(input.mesh, rings, frame); });
 }
 
 }  // namespace tvg

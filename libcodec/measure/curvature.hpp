@@ -1,6 +1,7 @@
 #pragma once
 #include "measure/criterion.hpp"
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,8 +27,13 @@ class OneRings {
 std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
                                      std::span<const float> positions);
 
-/// CURV (Eq. 3): alpha * mean absolute deviation + (1 - alpha) * mean, over the frames, of each vertex's
-/// curvature.
+/// A curvature at every vertex of a frame, [vertex].
+using FrameCurvature = std::function<std::vector<double>(const FramePositions&)>;
+
+/// Eq. 3 of any curvature: alpha * mean absolute deviation + (1 - alpha) * mean, over the frames.
+std::vector<double> change_and_mean(const CriterionInput& input, const FrameCurvature& curvature_of);
+
+/// CURV: Eq. 3 of Eq. 1.
 std::vector<double> curvature_criterion(const CriterionInput& input);
 
 }  // namespace tvg

@@ -6,6 +6,22 @@
 
 namespace tvg {
 
+void smooth_cost(const Mesh& mesh, std::uint32_t times, std::span<double> cost) {
+  std::vector<double> sum(cost.size()), count(cost.size());
+  for (std::uint32_t pass = 0; pass < times; ++pass) {
+    std::copy(cost.begin(), cost.end(), sum.begin());
+    std::fill(count.begin(), count.end(), 1.0);
+    for (const auto& [a, b, c] : mesh.faces) {
+      const double whole = cost[a] + cost[b] + cost[c];
+      for (const std::uint32_t v : {a, b, c}) {
+        sum[v] += whole - cost[v];
+        count[v] += 2;
+      }
+    }
+    for (std::size_t v = 0; v < cost.size(); ++v) cost[v] = sum[v] / count[v];
+  }
+}
+
 std::vector<std::uint8_t> flag_highest_share(std::span<const double> cost, double share) {
   const double wanted = std::round(std::clamp(share, 0.0, 1.0) * static_cast<double>(cost.size()));
   std::vector<std::uint32_t> ranked(cost.size());

@@ -3,7 +3,14 @@
 #include <span>
 #include <vector>
 
+#include <tvg/mesh.hpp>
+
 namespace tvg {
+
+/// Replaces every cost by the mean of its own and that of the corners across the edges of the faces around
+/// it, `times` times over. A corner that several faces name counts with each; a vertex without faces keeps
+/// its cost.
+void smooth_cost(const Mesh& mesh, std::uint32_t times, std::span<double> cost);
 
 /// Algorithm 1's flags, 0 or 1 per vertex: 1 for the `share` (0 to 1) of vertices with the highest cost,
 /// rounded to the nearest count. Equal costs rank by vertex index, the lower first.

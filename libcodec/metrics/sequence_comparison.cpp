@@ -1,9 +1,11 @@
 #include "metrics/hausdorff.hpp"
+#include "metrics/sted.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,8 @@ class SequenceComparison::Accumulator {
     add_distances();
     add_spread();
     add_quadrics();
+    if (!edges_) edges_.emplace(mesh_);
+    edges_->add_frame(original_, decoded_);
     if (settings_.hausdorff && !mesh_.faces.empty() && frames_ % settings_.hausdorff_stride == 0)
       add_hausdorff();
     ++frames_;
@@ -153,8 +157,9 @@ class SequenceComparison::Accumulator {
   Mesh mesh_;
   ComparisonSettings settings_;
   bool mesh_is_valid_ = true;
-  Points original_, decoded_;    ///< the present frame
-  std::vector<double> quadric_;  ///< [vertex], of the present frame
+  Points original_, decoded_;            ///< the present frame
+  std::vector<double> quadric_;          ///< [vertex], of the present frame
+  std::optional<EdgeDifference> edges_;  ///< made when the mesh has been found valid
 
   std::uint64_t frames_ = 0;
   double sum_absolute_ = 0, sum_squared_ = 0;
@@ -195,6 +200,9 @@ ComparisonReport SequenceComparison::Accumulator::report() const {
   report.kg_percent = 100 * ratio(std::sqrt(sum_squared_), std::sqrt(spread_));
   report.mean_quadric_error = sum_quadric_ / points;
   report.max_quadric_error = max_quadric_;
+  report.sted = edges_->combined();
+  report.sted_spatial = edges_->spatial();
+  report.sted_temporal = edges_->temporal();
   report.hausdorff_frames = hausdorff_frames_;
   if (hausdorff_frames_ > 0) {
     report.hausdorff = std::max(forward_, backward_);

@@ -1,12 +1,10 @@
 #include "player/view/overlay.hpp"
 
-#include "measure/criterion.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
-#include <tvg/encoder.hpp>
+#include <tvg/measure.hpp>
 
 namespace tvg::cli {
 
@@ -16,8 +14,9 @@ void importance_values(std::span<const std::uint8_t> flags, std::span<float> val
 }
 
 std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions> frames) {
-  const std::vector<double> costs = cost(default_terms(), {mesh, frames, Importance{}.alpha});
-  return {costs.begin(), costs.end()};
+  const Result<Measure> measured = measure(mesh, frames, {}, {}, Importance());
+  if (!measured) return std::vector<float>(mesh.vertex_count, 0.0F);  // there are no frames
+  return {measured->cost.begin(), measured->cost.end()};
 }
 
 void error_values(std::span<const float> frame, std::span<const float> reference, std::span<float> values) {

@@ -108,18 +108,19 @@ TEST(Hand, StepsOfFour) {
 }
 
 TEST(Hand, SkeletonIsATreeWithBonesOfConstantLength) {
-  const Skeleton skeleton = make_hand({400, 40}).skeleton;
+  const JointTracks tracks = make_hand({400, 40}).joints;
+  const Skeleton& skeleton = tracks.skeleton;
   ASSERT_EQ(skeleton.joint_names.size(), 21U);
   ASSERT_EQ(skeleton.parents.size(), 21U);
-  ASSERT_EQ(skeleton.frames.size(), 40U);
+  ASSERT_EQ(tracks.frames.size(), 40U);
   EXPECT_EQ(skeleton.parents[0], -1);
   for (std::size_t j = 1; j < skeleton.parents.size(); ++j) {
     ASSERT_GE(skeleton.parents[j], 0);
     ASSERT_LT(skeleton.parents[j], static_cast<std::int32_t>(j));
     const auto parent = static_cast<std::size_t>(skeleton.parents[j]);
-    const double length = distance(skeleton.frames[0], j, parent);
+    const double length = distance(tracks.frames[0], j, parent);
     EXPECT_GT(length, 0.5) << skeleton.joint_names[j];
-    for (const auto& frame : skeleton.frames) {
+    for (const auto& frame : tracks.frames) {
       ASSERT_EQ(frame.size(), 63U);
       EXPECT_NEAR(distance(frame, j, parent), length, 1e-5) << skeleton.joint_names[j];
     }
@@ -127,14 +128,15 @@ TEST(Hand, SkeletonIsATreeWithBonesOfConstantLength) {
 }
 
 TEST(Hand, FingersBendAtTheirJoints) {
-  const Skeleton skeleton = make_hand({400, 60}).skeleton;
+  const JointTracks tracks = make_hand({400, 60}).joints;
+  const Skeleton& skeleton = tracks.skeleton;
   const auto index_2 = std::find(skeleton.joint_names.begin(), skeleton.joint_names.end(), "index_2");
   ASSERT_NE(index_2, skeleton.joint_names.end());
   const auto j = static_cast<std::size_t>(index_2 - skeleton.joint_names.begin());
   // A straight joint has its neighbours as far apart as the bones are long together.
   double straightest = 0;
   double most_bent = 1;
-  for (const auto& frame : skeleton.frames) {
+  for (const auto& frame : tracks.frames) {
     const double share =
         distance(frame, j - 1, j + 1) / (distance(frame, j - 1, j) + distance(frame, j, j + 1));
     straightest = std::max(straightest, share);
@@ -153,12 +155,12 @@ TEST(Hand, SkinStaysAroundItsJoints) {
         double sum = 0;
         for (std::size_t k = 0; k < 3; ++k) {
           const double d =
-              static_cast<double>(hand.sequence.frames[f][3 * v + k]) - hand.skeleton.frames[f][3 * j + k];
+              static_cast<double>(hand.sequence.frames[f][3 * v + k]) - hand.joints.frames[f][3 * j + k];
           sum += d * d;
         }
         nearest = std::min(nearest, std::sqrt(sum));
       }
-      EXPECT_LT(nearest, 2.2) << hand.skeleton.joint_names[j] << " in frame " << f;
+      EXPECT_LT(nearest, 2.2) << hand.joints.skeleton.joint_names[j] << " in frame " << f;
     }
   }
 }

@@ -49,7 +49,7 @@ TEST_F(WriteCache, Pc2HasEveryFrameAfterItsHeader) {
 }
 
 TEST_F(WriteCache, SkeletonIsJson) {
-  write_skeleton(path("s.json"), {{"root", "end"}, {-1, 0}, {{0, 0, 0, 1, 0.5F, 0}}});
+  write_skeleton(path("s.json"), {{{"root", "end"}, {-1, 0}, {}}, {{0, 0, 0, 1, 0.5F, 0}}});
   EXPECT_EQ(contents("s.json"),
             "{\"frames\":[[[0.0,0.0,0.0],[1.0,0.5,0.0]]],"
             "\"joints\":[{\"name\":\"root\",\"parent\":null},{\"name\":\"end\",\"parent\":0}]}\n");

@@ -1,5 +1,7 @@
 #include "measure/curvature.hpp"
 
+#include "measure_toolbox.hpp"
+
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -108,7 +110,9 @@ TEST(CurvatureOverTime, IsEquation3WorkedByHandOverThreeFrames) {
   const double mean = k / 3;
   const double deviation = (mean + (k - mean) + mean) / 3;  // 4 k / 9
   for (const double alpha : {0.0, 0.25, 0.5, 1.0}) {
-    const std::vector<double> value = curvature_criterion({kFold, frames, alpha});
+    Importance options;
+    options.alpha = alpha;
+    const std::vector<double> value = test::evaluate("curv", kFold, frames, options);
     EXPECT_NEAR(value[0], alpha * deviation + (1 - alpha) * mean, 1e-7) << alpha;
     EXPECT_NEAR(value[1], value[0], 1e-12);
     EXPECT_NEAR(value[2], 0, 1e-7);
@@ -118,8 +122,11 @@ TEST(CurvatureOverTime, IsEquation3WorkedByHandOverThreeFrames) {
 
 TEST(CurvatureOverTime, StillFramesHaveNoDeviation) {
   const std::vector<FramePositions> frames(3, fold(1, 1, 1.0));
-  EXPECT_NEAR(curvature_criterion({kFold, frames, 1.0})[0], 0, 1e-12);
-  EXPECT_NEAR(curvature_criterion({kFold, frames, 0.0})[0], curvature_at(0, kFold, frames[0]), 1e-12);
+  Importance options;
+  options.alpha = 1;
+  EXPECT_NEAR(test::evaluate("curv", kFold, frames, options)[0], 0, 1e-12);
+  options.alpha = 0;
+  EXPECT_NEAR(test::evaluate("curv", kFold, frames, options)[0], curvature_at(0, kFold, frames[0]), 1e-12);
 }
 
 }  // namespace

@@ -50,17 +50,46 @@ TEST(FlagAbove, FlagsOnlyWhatIsAboveTheThreshold) {
   EXPECT_THAT(flag_above(std::vector<double>{0, 1e300}, std::numeric_limits<double>::infinity()), Each(0));
 }
 
+TEST(SmoothCost, IsTheMeanOverAVertexAndItsNeighbours) {
+  const Mesh mesh{5, {{0, 1, 2}, {1, 3, 2}}};
+  std::vector<double> cost = {9, 0, 3, 6, 7};
+  smooth_cost(mesh, 1, cost);
+  // Vertex 1 meets 0 and 2 in the first face, 3 and 2 in the second.
+  EXPECT_THAT(cost, ElementsAre((9 + 0 + 3) / 3.0, (0 + 9 + 3 + 6 + 3) / 5.0, (3 + 9 + 0 + 0 + 6) / 5.0,
+                                (6 + 0 + 3) / 3.0, 7));
+}
+
+TEST(SmoothCost, KeepsWhatIsEvenAndGathersWhatIsScattered) {
+  Mesh strip{100, {}};
+  for (std::uint32_t v = 0; v + 2 < 100; ++v) strip.faces.push_back({v, v + 1, v + 2});
+  std::vector<double> even(100, 2.5);
+  smooth_cost(strip, 7, even);
+  EXPECT_THAT(even, Each(testing::DoubleNear(2.5, 1e-12)));
+  // Every third vertex counts among the first fifty: by themselves they are alone, smoothed they are a piece.
+  std::vector<double> scattered(100, 0.0);
+  for (std::size_t v = 0; v < 50; v += 3) scattered[v] = 1;
+  smooth_cost(strip, 10, scattered);
+  const std::vector<std::uint8_t> flags = flag_highest_share(scattered, 0.4);
+  EXPECT_EQ(std::count(flags.begin(), flags.begin() + 45, 1), 40);
+  std::vector<double> untouched = {1, 2};
+  smooth_cost(Mesh{2, {{0, 1, 1}}}, 0, untouched);
+  EXPECT_THAT(untouched, ElementsAre(1, 2));
+}
+
 TEST(Cost, IsEquation2WithWeightsOfEitherSign) {
-  const Criterion ramp{"ramp", [](const CriterionInput& input) {
+  const Criterion ramp{"ramp", "1, 2, 3, ...", [](const CriterionInput& input) {
                          std::vector<double> values(input.mesh.vertex_count);
                          std::iota(values.begin(), values.end(), 1.0);
                          return values;
                        }};
-  const Criterion alpha{"alpha", [](const CriterionInput& input) {
-                          return std::vector<double>(input.mesh.vertex_count, input.alpha);
+  const Criterion alpha{"alpha", "constant", [](const CriterionInput& input) {
+                          return std::vector<double>(input.mesh.vertex_count, input.options.alpha);
                         }};
   const Mesh mesh{3, {}};
-  const CriterionInput input{mesh, {}, 0.25};
+  Importance options;
+  options.alpha = 0.25;
+  const Skeleton none;
+  const CriterionInput input{mesh, {}, options, none, {}};
   EXPECT_THAT(cost(std::vector<WeightedCriterion>{{&ramp, 2}, {&alpha, -4}}, input), ElementsAre(1, 3, 5));
   EXPECT_THAT(cost(std::vector<WeightedCriterion>{{&ramp, -1}}, input), ElementsAre(-1, -2, -3));
   EXPECT_THAT(cost({}, input), Each(0));

@@ -1,22 +1,15 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 
 #include <tvg/error.hpp>
+#include <tvg/measure.hpp>
 #include <tvg/sequence.hpp>
 #include <tvg/stream.hpp>
 
 namespace tvg {
-
-/// Which vertices of a GOP are important (Algorithm 1).
-struct Importance {
-  double share = 0.35;              ///< the share of vertices with the highest cost, 0 to 1
-  std::optional<double> threshold;  ///< instead: every vertex whose cost is above this
-  double alpha = 0.5;  ///< of CURV (Eq. 3): weight of the change of curvature against its mean, 0 to 1
-};
 
 struct EncodeOptions {
   int fine_bits = 11;    ///< B2, 1 to 24: bits of important vertices

@@ -59,6 +59,14 @@ struct ComparisonReport {
   double mean_quadric_error = 0;  ///< over all vertices of all frames
   double max_quadric_error = 0;
 
+  /// A STED-type metric (after Vasa and Skala 2011): how unevenly edge lengths are off, in space and over
+  /// time, in relative terms; metrics/sted.hpp defines both parts and their constants. Insensitive to a
+  /// translation of everything; 0 for identical sequences and without faces (spatial) or a second frame
+  /// (temporal).
+  double sted = 0;           ///< sqrt(spatial^2 + (0.127 temporal)^2)
+  double sted_spatial = 0;   ///< mean deviation of relative edge-length errors around a vertex
+  double sted_temporal = 0;  ///< the same along the path of a vertex, over 5 frames
+
   /// Hausdorff distance between the surfaces, the largest over the frames measured: from every vertex in use
   /// and every face's centroid of one to the nearest point of the other. Absent when it was not asked for, no
   /// frame was measured, or the mesh has no faces.

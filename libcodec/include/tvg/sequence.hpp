@@ -48,13 +48,17 @@ class FrameSource {
   virtual bool rewind() = 0;
 };
 
-/// A FrameSource over frames in memory; the sequence must outlive it.
+/// A FrameSource over frames in memory; the sequence and the joints, if any, must outlive it. Frames of
+/// joints go with those of the sequence by number.
 class SequenceSource final : public FrameSource {
  public:
-  explicit SequenceSource(const Sequence& sequence) : sequence_(sequence) {}
+  explicit SequenceSource(const Sequence& sequence, const JointTracks* joints = nullptr)
+      : sequence_(sequence), joints_(joints) {}
 
   const Mesh& mesh() const override { return sequence_.mesh; }
   Metadata metadata() const override { return sequence_.metadata; }
+  const Skeleton& skeleton() const override;
+  std::span<const float> joint_positions() const override;
   std::optional<std::uint64_t> frame_count() const override { return sequence_.frames.size(); }
   Result<bool> read_frame(std::span<float> positions) override;
   bool rewind() override {
@@ -64,6 +68,7 @@ class SequenceSource final : public FrameSource {
 
  private:
   const Sequence& sequence_;
+  const JointTracks* joints_;
   std::size_t next_ = 0;
 };
 

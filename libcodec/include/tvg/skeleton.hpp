@@ -14,4 +14,10 @@ struct Skeleton {
   bool empty() const { return joint_names.empty(); }
 };
 
+/// A skeleton over time, all in memory.
+struct JointTracks {
+  Skeleton skeleton;
+  std::vector<std::vector<float>> frames;  ///< [frame][joint][xyz]
+};
+
 }  // namespace tvg

@@ -1,0 +1,107 @@
+#include "measure/criterion.hpp"
+#include "measure/importance.hpp"
+#include "measure/joint_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <tvg/measure.hpp>
+
+namespace tvg {
+
+namespace {
+
+Error invalid_argument(std::string message) {
+  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
+}
+
+std::string known_names() {
+  std::string names;
+  for (const Criterion& criterion : criteria()) {
+    names += (names.empty() ? "" : ", ") + std::string(criterion.name);
+  }
+  return names;
+}
+
+Status check_sizes(const Mesh& mesh, std::span<const FramePositions> frames, const Skeleton& skeleton,
+                   std::span<const std::vector<float>> joints, bool with_joints) {
+  if (frames.empty()) return invalid_argument("there is no frame to measure");
+  const std::size_t vertex_values = 3 * std::size_t{mesh.vertex_count};
+  for (const FramePositions& frame : frames) {
+    if (frame.size() != vertex_values) return invalid_argument("a frame has not the mesh's vertices");
+  }
+  if (!with_joints) return {};
+  if (joints.size() != frames.size()) {
+    return invalid_argument("there are " + std::to_string(joints.size()) + " frames of joints for " +
+                            std::to_string(frames.size()) + " of vertices");
+  }
+  for (const std::vector<float>& frame : joints) {
+    if (frame.size() != 3 * skeleton.joint_names.size()) {
+      return invalid_argument("a frame has not the skeleton's joints");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<CriterionDescription> criterion_descriptions() {
+  std::vector<CriterionDescription> descriptions;
+  for (const Criterion& criterion : criteria()) {
+    descriptions.push_back({criterion.name, criterion.description});
+  }
+  return descriptions;
+}
+
+bool uses_skeleton(const Importance& importance) {
+  return std::any_of(importance.criteria.begin(), importance.criteria.end(), [](const CriterionWeight& term) {
+    const Criterion* criterion = find_criterion(term.name);
+    return criterion != nullptr && criterion->uses_skeleton;
+  });
+}
+
+Status check_importance(const Importance& importance, const Mesh& mesh, const Skeleton& skeleton) {
+  if (!(importance.share >= 0 && importance.share <= 1)) {
+    return invalid_argument("the share of important vertices must lie between 0 and 1");
+  }
+  if (!(importance.alpha >= 0 && importance.alpha <= 1)) {
+    return invalid_argument("alpha must lie between 0 and 1");
+  }
+  if (importance.smoothing > kMaxSmoothing) {
+    return invalid_argument("the cost can be averaged " + std::to_string(kMaxSmoothing) + " times at most");
+  }
+  if (importance.criteria.empty()) return invalid_argument("the measure needs at least one criterion");
+  for (const CriterionWeight& term : importance.criteria) {
+    const Criterion* criterion = find_criterion(term.name);
+    if (criterion == nullptr) {
+      return invalid_argument("there is no criterion '" + term.name + "', but " + known_names());
+    }
+    if (!std::isfinite(term.weight)) {
+      return invalid_argument("the weight of '" + term.name + "' must be a finite number");
+    }
+    if (criterion->check == nullptr) continue;
+    if (Status status = criterion->check(importance, mesh, skeleton); !status.ok()) return status;
+  }
+  return {};
+}
+
+Result<Measure> measure(const Mesh& mesh, std::span<const FramePositions> frames, const Skeleton& skeleton,
+                        std::span<const std::vector<float>> joints, const Importance& importance) {
+  const bool with_joints = uses_skeleton(importance);
+  if (Status status = check_importance(importance, mesh, skeleton); !status.ok()) return status.error();
+  if (Status status = check_sizes(mesh, frames, skeleton, joints, with_joints); !status.ok())
+    return status.error();
+  Measure result;
+  result.cost = cost(terms_of(importance), {mesh, frames, importance, skeleton, joints});
+  smooth_cost(mesh, importance.smoothing, result.cost);
+  result.flags = importance.threshold ? flag_above(result.cost, *importance.threshold)
+                                      : flag_highest_share(result.cost, importance.share);
+  if (with_joints) {
+    result.joints =
+        judge_joints(joint_angle_sums(skeleton, joints), joints.size() - 1, importance.skel_threshold);
+  }
+  return result;
+}
+
+}  // namespace tvg
