@@ -52,11 +52,12 @@ double residual(const FramePositions& rest, const FramePositions& frame, std::si
   }
   if (!(energy > 0)) return 0;
   // sum |e' - R e|^2 = sum |e'|^2 + sum |e|^2 - 2 tr(R^T S), and the best R makes the trace the sum of the
-  // singular values, the last of them negative where S reflects.
-  const Eigen::JacobiSVD<Matrix3d> svd(covariance);
-  const Vector3d singular = svd.singularValues();
+  // singular values, the least of them negative where S reflects.
+  Eigen::SelfAdjointEigenSolver<Matrix3d> solver;
+  solver.computeDirect(covariance.transpose() * covariance, Eigen::EigenvaluesOnly);
+  const Vector3d singular = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();  // ascending
   const double sign = covariance.determinant() < 0 ? -1 : 1;
-  return std::max(0.0, energy + now - 2 * (singular[0] + singular[1] + sign * singular[2])) / energy;
+  return std::max(0.0, energy + now - 2 * (singular[2] + singular[1] + sign * singular[0])) / energy;
 }
 
 }  // namespace
