@@ -157,6 +157,11 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
                      "of weights: a number per vertex, one on each line, or a .npy");
   command
       .add_option(
+          "--smooth", arguments.smoothing,
+          "times the cost is averaged over neighbours (default 0): marks in one piece cost fewer bytes")
+      ->check(CLI::Range(0U, kMaxSmoothing));
+  command
+      .add_option(
           "--lookahead", arguments.lookahead,
           "frames that mark a GOP: its own (gop, the default), or those of the GOP before (0), so that "
           "nothing waits")

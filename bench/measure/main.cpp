@@ -105,8 +105,8 @@ Comparison compare_marks(const Settings& settings, const Experiment& experiment)
   const double coarser = settings.coarser_bits;
   // Uniform encodings from the coarse lattice of the coarsest to the fine one of the finest.
   std::vector<double> uniform_bits;
-  for (double bits = settings.bits - 0.5 - coarser; bits <= settings.bits + 0.51; bits += 0.5) {
-    uniform_bits.push_back(bits);
+  for (int half = -1 - 2 * settings.coarser_bits; half <= 1; ++half) {
+    uniform_bits.push_back(settings.bits + 0.5 * half);
   }
   result.uniform = run_curve(experiment, "uniform", uniform_bits, std::nullopt);
   const std::vector<double> fine_bits = {settings.bits - 0.75, settings.bits, settings.bits + 0.75};

@@ -38,7 +38,7 @@ class Axes {
     return fmt::format("{:.1f},{:.1f}", x(point.bytes), y(point.figures[figure_]));
   }
 
-  /// Frame, and ticks at 1, 2 and 5 times powers of ten.
+  /// Frame, and ticks at some simple multiples of powers of ten.
   std::string drawing() const {
     std::string svg =
         fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>\n",
@@ -52,7 +52,7 @@ class Axes {
     for (const double tick : ticks(low_y_, high_y_)) {
       svg += fmt::format(
           "<line x1=\"{0}\" y1=\"{1:.1f}\" x2=\"{2}\" y2=\"{1:.1f}\" stroke=\"#ddd\"/>"
-          "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:.1g}</text>\n",
+          "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:.2g}</text>\n",
           kLeft, y(tick), kWidth - kRight, kLeft - 6, y(tick) + 4, tick);
     }
     return svg;
@@ -61,9 +61,11 @@ class Axes {
  private:
   static std::vector<double> ticks(double low, double high) {
     std::vector<double> result;
-    for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10) {
-      for (const double factor : {1.0, 2.0, 5.0}) {
-        if (factor * decade >= low && factor * decade <= high) result.push_back(factor * decade);
+    const int last = static_cast<int>(std::floor(std::log10(high)));
+    for (int decade = static_cast<int>(std::floor(std::log10(low))); decade <= last; ++decade) {
+      for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0}) {
+        const double tick = factor * std::pow(10, decade);
+        if (tick >= low && tick <= high) result.push_back(tick);
       }
     }
     return result;

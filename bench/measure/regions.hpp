@@ -8,7 +8,7 @@
 // the original alone, by other means than the measure's.
 namespace tvg::bench {
 
-/// The share of vertices that make a region.
+/// The share of vertices that make a region, where so many move or deform at all.
 constexpr double kRegionShare = 0.25;
 
 /// Regions of every GOP, [gop][vertex]: 1 inside.

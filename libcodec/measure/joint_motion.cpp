@@ -122,6 +122,7 @@ std::vector<JointMotion> judge_joints(const std::vector<double>& angle_sums, std
       threshold ? *threshold * static_cast<double>(steps)
                 : std::max(kShareOfStrongest * strongest, kLeastDegreesPerFrame * static_cast<double>(steps));
   std::vector<JointMotion> motions;
+  motions.reserve(angle_sums.size());
   for (const double sum : angle_sums) motions.push_back({sum, sum > least});
   return motions;
 }
