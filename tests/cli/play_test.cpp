@@ -14,13 +14,15 @@ using ::testing::HasSubstr;
 /// and process S.
 constexpr const char* kFunctions = R"(
 display() {
+  rm -f display
   Xvfb -displayfd 5 -screen 0 800x600x24 5>display 2>/dev/null & X=$!
   for i in $(seq 300); do [ -s display ] && break; sleep 0.02; done
   export DISPLAY=:$(cat display)
 }
 serve() {
+  rm -f url
   tvg serve . --port 0 >url 2>log & S=$!
-  for i in $(seq 200); do [ -s url ] && break; sleep 0.02; done
+  for i in $(seq 500); do [ -s url ] && break; sleep 0.02; done
   U=$(cat url)
 }
 )";

@@ -10,8 +10,9 @@ using ::testing::Not;
 /// `watch NAME FILE` stores a live stream, for which it waits until it has begun.
 constexpr const char* kFunctions = R"(
 serve() {
+  rm -f url
   tvg serve . --port 0 >url 2>log & S=$!
-  for i in $(seq 200); do [ -s url ] && break; sleep 0.02; done
+  for i in $(seq 500); do [ -s url ] && break; sleep 0.02; done
   U=$(cat url); P=${U##*:}; P=${P%/}
 }
 watch() {
@@ -136,12 +137,12 @@ TEST_F(LiveEncodeTest, AFrameCutShortIsLeftOutWithANote) {
 
 TEST_F(LiveEncodeTest, AGopLeavesAsSoonAsItIsComplete) {
   const std::string size = std::to_string(32 + 7 * frame_bytes());
-  const Outcome result =
-      run("{ head -c " + size +
-          " hand.pc2; for i in $(seq 500); do [ -e enough ] && break; sleep 0.02; done; } | "
-          "tvg encode hand.obj - --live --gop 3 -q -o - >out.tvg & "
-          "for i in $(seq 200); do tvg verify out.tvg 2>&1 | grep '6 frames decoded' && break; sleep 0.02; done; "
-          "touch enough; wait; tvg verify out.tvg");
+  const Outcome result = run(
+      "{ head -c " + size +
+      " hand.pc2; for i in $(seq 500); do [ -e enough ] && break; sleep 0.02; done; } | "
+      "tvg encode hand.obj - --live --gop 3 -q -o - >out.tvg & "
+      "for i in $(seq 200); do tvg verify out.tvg 2>&1 | grep '6 frames decoded' && break; sleep 0.02; done; "
+      "touch enough; wait; tvg verify out.tvg");
   EXPECT_THAT(result.out, HasSubstr("6 frames decoded")) << result.err;
   EXPECT_THAT(result.out, HasSubstr("valid, 7 frames"));
 }
@@ -156,11 +157,11 @@ TEST_F(LiveEncodeTest, AFileIsGivenOutAtItsRateAndGopsAreShort) {
 }
 
 TEST_F(LiveEncodeTest, LoopingGoesOnUntilStopped) {
-  const Outcome result =
-      run("tvg encode hand.obj hand.pc2 --live --loop --fps 600 --gop 5 -q -o - >out.tvg & E=$!; "
-          "for i in $(seq 200); do tvg verify out.tvg 2>&1 | grep -E ' ([3-9][0-9]|[0-9]{3,}) frames decoded' && "
-          "break; "
-          "sleep 0.02; done; kill $E; wait $E");
+  const Outcome result = run(
+      "tvg encode hand.obj hand.pc2 --live --loop --fps 600 --gop 5 -q -o - >out.tvg & E=$!; "
+      "for i in $(seq 200); do tvg verify out.tvg 2>&1 | grep -E ' ([3-9][0-9]|[0-9]{3,}) frames decoded' && "
+      "break; "
+      "sleep 0.02; done; kill $E; wait $E");
   EXPECT_THAT(result.out, HasSubstr("frames decoded"));
 }
 
