@@ -4,7 +4,7 @@ WERROR ?= OFF
 FUZZ_SECONDS ?= 60
 LINT ?= libcodec encoder decoder player server cli
 
-SOURCES = $(wildcard $(shell git ls-files --cached --others --exclude-standard "*.cpp" "*.hpp"))
+SOURCES = $(wildcard $(shell git ls-files --cached --others --exclude-standard "*.c" "*.cpp" "*.h" "*.hpp"))
 CONFIGURE = cmake -DTVG_WARNINGS_AS_ERRORS=$(WERROR) --preset
 # Progress is for terminals: elsewhere only what goes wrong is printed.
 define BUILD
