@@ -3,6 +3,8 @@
 WERROR ?= OFF
 FUZZ_SECONDS ?= 60
 LINT ?= libcodec encoder decoder player server cli
+# Folders of tests to run under sanitizers; all where empty.
+SANITIZE ?=
 
 SOURCES = $(wildcard $(shell git ls-files --cached --others --exclude-standard "*.c" "*.cpp" "*.h" "*.hpp"))
 CONFIGURE = cmake -DTVG_WARNINGS_AS_ERRORS=$(WERROR) --preset
@@ -48,8 +50,8 @@ lint:
 sanitize:
 	@scripts/install_packages.sh build test
 	@$(CONFIGURE) asan-ubsan >/dev/null
-	$(call BUILD,build/asan-ubsan)
-	@scripts/run_tests.sh build/asan-ubsan
+	$(call BUILD,build/asan-ubsan,$(if $(SANITIZE),--target $(addsuffix _tests,$(SANITIZE))))
+	@scripts/run_tests.sh build/asan-ubsan $(SANITIZE)
 
 fuzz:
 	@scripts/install_packages.sh build check
