@@ -16,7 +16,7 @@ void PlayFigures::add_frame(double now) {
   frame_times_[frames_++ % kRecent] = now;
 }
 
-void PlayFigures::add_picture(double, double seconds) {
+void PlayFigures::add_picture(double seconds) {
   draw_seconds_[pictures_++ % kRecent] = seconds;
   total_draw_ += seconds;
   longest_draw_ = std::max(longest_draw_, seconds);

@@ -14,7 +14,7 @@ class PlayFigures {
   /// A frame of the stream that was not shown before has been drawn and presented.
   void add_frame(double now);
   /// A picture was drawn and presented in so many seconds.
-  void add_picture(double now, double seconds);
+  void add_picture(double seconds);
 
   /// Of the pictures drawn lately.
   double mean_draw_ms() const;

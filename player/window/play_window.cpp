@@ -211,7 +211,7 @@ class PlayWindow {
     }
     window_.present();
     const double done = watch_.now();
-    figures_.add_picture(done, done - now);
+    figures_.add_picture(done - now);
     if (std::exchange(is_new_, false)) figures_.add_frame(done);
   }
 
