@@ -218,6 +218,11 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
   Metadata metadata = options.metadata;
   metadata.merge(source.metadata());
   if (metadata.count("") > 0) return invalid_argument("a key of the metadata is empty");
+  for (const auto& [key, value] : metadata) {
+    if (!is_metadata_text(key)) return invalid_argument("a key of the metadata is no text in UTF-8");
+    if (!is_metadata_text(value))
+      return invalid_argument("the metadata's value of '" + key + "' is no text in UTF-8");
+  }
   if (write_metadata(metadata).size() > kMaxSmallPayload)
     return invalid_argument("the metadata is above 1 MiB");
   StreamWriter writer(sink);

@@ -21,6 +21,10 @@ for target in decoder_fuzz connectivity_fuzz c_api_fuzz; do
   if ! "$program" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$build/crashes/$target-" "${folders[@]}" >"$log" 2>&1; then
     tail -n 60 "$log" >&2
+    for input in "$build/crashes/$target-"*; do
+      echo "$input, to be kept as a seed (base64 -d):" >&2
+      base64 "$input" | head -c 20000 >&2
+    done
     exit 1
   fi
   echo "$target: $(grep -o 'number_of_executed_units: *[0-9]*' "$log" | tr -dc 0-9) executions, no finding"

@@ -26,7 +26,7 @@ class ObjReader {
         read_face();
       } else if ((keyword == "o" || keyword == "g") && mesh_.name.empty()) {
         const std::string_view name = cursor_.rest_of_line();
-        if (is_plain_utf8(name)) mesh_.name = name;
+        if (is_plain_text(name)) mesh_.name = name;
       }
     }
     if (mesh_.faces.empty()) {

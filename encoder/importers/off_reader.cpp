@@ -41,7 +41,7 @@ class OffReader {
     const std::string_view prefix = keyword.substr(0, keyword.size() - 3);
     if (prefix.find_first_not_of("STCN") != prefix.npos) {
       cursor_.fail(fmt::format("'{}' is a variant that is not read: vertices must have three coordinates",
-                               is_plain_utf8(keyword) ? keyword : "(binary)"));
+                               is_plain_text(keyword) ? keyword : "(binary)"));
     }
     TextCursor ahead = cursor_;
     if (ahead.word() == "BINARY") cursor_.fail("binary OFF files are not read; convert it to text or to PLY");

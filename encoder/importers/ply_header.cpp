@@ -39,7 +39,7 @@ std::optional<PlyType> type_named(std::string_view name) {
 }
 
 std::string shown(std::string_view word) {
-  return is_plain_utf8(word) ? std::string(word.substr(0, 40)) : "(binary)";
+  return is_plain_text(word) ? std::string(word.substr(0, 40)) : "(binary)";
 }
 
 class HeaderReader {

@@ -8,6 +8,7 @@
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
+#include "encoder/importers/text_cursor.hpp"
 
 #include <algorithm>
 #include <assimp/scene.h>
@@ -158,7 +159,7 @@ OpenedScene open_clip(const std::string& path, const SceneOptions& options) {
   nodes.detach();
   Metadata metadata = file.metadata();
   metadata.emplace("fps", rate);
-  if (!clip.name.empty()) metadata.emplace("name", clip.name);
+  if (!clip.name.empty() && is_plain_text(clip.name)) metadata.emplace("name", clip.name);
   opened.source = std::make_unique<SceneSource>(path, std::move(nodes), std::move(clip), std::move(mesh),
                                                 std::move(metadata), fps);
   return opened;

@@ -82,7 +82,7 @@ class AsciiStlReader {
     const std::string found(word_.substr(0, 30));
     if (cursor_.at_end()) cursor_.fail_at_end(fmt::format("a word where '{}' should be", expected));
     cursor_.fail(
-        fmt::format("'{}' stands where '{}' should be", is_plain_utf8(found) ? found : "(binary)", expected));
+        fmt::format("'{}' stands where '{}' should be", is_plain_text(found) ? found : "(binary)", expected));
   }
 
   void read_facet() {

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
+#include <tvg/sequence.hpp>
+
 namespace tvg::cli {
 
 void TextCursor::skip_blanks_and_continuations() {
@@ -92,7 +94,7 @@ void TextCursor::fail_number(const char* expected, const char* begin) const {
   const char* limit = begin + std::min(kShown, end_ - begin);
   const std::string found(begin, std::find_if(begin, limit, is_delimiter));
   if (found.empty()) fail(fmt::format("{} is missing", expected));
-  fail(fmt::format("'{}' stands where {} should be", is_plain_utf8(found) ? found : "(binary)", expected));
+  fail(fmt::format("'{}' stands where {} should be", is_plain_text(found) ? found : "(binary)", expected));
 }
 
 void TextCursor::fail(const std::string& what, ErrorCode code) const {
@@ -119,24 +121,9 @@ void require_whole_text(const std::string& file, std::string_view text) {
   }
 }
 
-bool is_plain_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i++]);
-    if (lead < 0x20 || lead == 0x7f) return false;
-    if (lead < 0x80) continue;
-    const std::size_t more = lead >= 0xf0 ? 3 : lead >= 0xe0 ? 2 : 1;
-    if (lead < 0xc2 || lead > 0xf4 || more > text.size() - i) return false;
-    const auto second = static_cast<unsigned char>(text[i]);
-    // Over-long forms, surrogates and numbers above 10FFFF show in the second byte.
-    if (lead == 0xe0 && second < 0xa0) return false;
-    if (lead == 0xed && second > 0x9f) return false;
-    if (lead == 0xf0 && second < 0x90) return false;
-    if (lead == 0xf4 && second > 0x8f) return false;
-    for (std::size_t k = 0; k < more; ++k, ++i) {
-      if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return false;
-    }
-  }
-  return true;
+bool is_plain_text(std::string_view text) {
+  const auto is_control = [](char c) { return (static_cast<unsigned char>(c) < 0x20) || c == 0x7f; };
+  return is_metadata_text(text) && std::none_of(text.begin(), text.end(), is_control);
 }
 
 }  // namespace tvg::cli

@@ -78,7 +78,7 @@ class TextCursor {
 /// and the last number may have lost digits.
 void require_whole_text(const std::string& file, std::string_view text);
 
-/// Whether `text` is well-formed UTF-8 without control characters.
-bool is_plain_utf8(std::string_view text);
+/// Whether `text` can be shown in a line and kept as metadata: UTF-8 without control characters.
+bool is_plain_text(std::string_view text);
 
 }  // namespace tvg::cli

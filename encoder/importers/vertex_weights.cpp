@@ -59,7 +59,7 @@ NumpyHeader read_numpy_header(const std::string& path, const std::string& bytes)
   const std::string shape = header_value(header, "shape", "\\(([0-9, ]{0,40})\\)");
   if (type != "<f4" && type != "<f8") {
     fail(path, fmt::format("holds numbers of type '{}': save them as float32 or float64, little-endian",
-                           is_plain_utf8(type) ? type : "?"));
+                           is_plain_text(type) ? type : "?"));
   }
   if (fortran != "False") fail(path, "is in Fortran's order: save it in C's order");
   NumpyHeader result{type == "<f8", 0, begin + length};

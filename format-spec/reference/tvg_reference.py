@@ -194,6 +194,7 @@ class Decoder:
         for _ in range(count):
             key, value = reader.take(reader.varint()), reader.take(reader.varint())
             require(key > last, "4.2", "keys are empty or do not ascend")
+            require(b"\0" not in key + value, "4.2", "U+0000 in a text")
             last = key
             try:
                 self.metadata[key.decode("utf-8")] = value.decode("utf-8")

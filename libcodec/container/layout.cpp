@@ -117,6 +117,9 @@ Result<Metadata> read_metadata(Bytes payload) {
     if (key.empty() || (!metadata.empty() && key <= metadata.rbegin()->first)) {
       return malformed("§4.2", "metadata keys are empty or not in ascending order");
     }
+    if (!is_metadata_text(key) || !is_metadata_text(value)) {
+      return malformed("§4.2", "metadata are not text in UTF-8");
+    }
     metadata.emplace_hint(metadata.end(), std::move(key), std::move(value));
   }
   if (!reader.finished()) return malformed("§4.2", "metadata entries do not fill the chunk exactly");

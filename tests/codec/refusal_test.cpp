@@ -81,6 +81,16 @@ TEST(Refusals, MeshesThatCannotBeEncodedAreRefused) {
   EXPECT_EQ(refusal(sequence).code, ErrorCode::kInvalidInput) << "a frame of another size";
 }
 
+TEST(Refusals, MetadataThatIsNoTextIsRefused) {
+  Sequence sequence = triangle();
+  for (const std::string& text : {std::string("a\0b", 3), std::string("M\xFCller")}) {
+    sequence.metadata = {{text, "value"}};
+    EXPECT_EQ(refusal(sequence).code, ErrorCode::kInvalidArgument);
+    sequence.metadata = {{"name", text}};
+    EXPECT_EQ(refusal(sequence).code, ErrorCode::kInvalidArgument);
+  }
+}
+
 TEST(Refusals, ErrorOfTheSinkEndsTheEncoding) {
   const Sequence sequence = triangle();
   for (int good_writes = 0; good_writes < 5; ++good_writes) {

@@ -140,6 +140,26 @@ TEST(MetadataLayout, EmptyDoubleOrUnorderedKeysAndUndueCountsAreRefused) {
   expect_refused(read(~std::uint64_t{0}, {"a", "1"}), ErrorCode::kMalformed, "§4.2");
 }
 
+TEST(MetadataLayout, WhatIsNoTextInUtf8IsRefused) {
+  const std::string bad[] = {
+      std::string("a\0b", 3),  // cannot be asked for through the C interface
+      "\x80",                  // a continuation first
+      "\xC3",                  // cut
+      "\xC3(",                 // not continued
+      "\xC0\xAF",              // over-long forms
+      "\xE0\x9F\xBF",          //
+      "\xF0\x8F\xBF\xBF",      //
+      "\xED\xA0\x80",          // a surrogate
+      "\xF4\x90\x80\x80",      // above U+10FFFF
+      "\xFF",                  //
+  };
+  for (const std::string& text : bad) {
+    expect_refused(read_metadata(write_metadata({{text, "value"}})), ErrorCode::kMalformed, "§4.2");
+    expect_refused(read_metadata(write_metadata({{"key", text}})), ErrorCode::kMalformed, "§4.2");
+  }
+  EXPECT_TRUE(read_metadata(write_metadata({{"\t\xDF\xBF\xEF\xBF\xBF", "\xF4\x8F\xBF\xBF\n"}})));
+}
+
 TEST(MeshChunk, ComesBack) {
   const Buffer connectivity = {1, 2, 3}, order = {4, 5};
   const Buffer bytes = write_mesh({1000, 0, true, connectivity, order});

@@ -1,4 +1,5 @@
 #include "corruption/repair.hpp"
+#include "fuzz/require.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,9 +14,7 @@
 // The C interface called in any order, with any split of the bytes, on any bytes.
 namespace {
 
-void require(bool condition) {
-  if (!condition) __builtin_trap();
-}
+using tvg::fuzz::require;
 
 tvg_limits small_limits() {
   tvg_limits limits = {};

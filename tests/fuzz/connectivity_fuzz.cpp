@@ -1,5 +1,6 @@
 #include "connectivity/connectivity.hpp"
 #include "connectivity/vertex_order.hpp"
+#include "fuzz/require.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,9 +9,7 @@
 
 namespace {
 
-void require(bool condition) {
-  if (!condition) __builtin_trap();
-}
+using tvg::fuzz::require;
 
 void check(const tvg::Connectivity& connectivity, std::uint32_t vertex_count, std::uint32_t face_count) {
   require(connectivity.gates.size() == vertex_count && connectivity.faces.size() == face_count);

@@ -1,5 +1,6 @@
 #include "corruption/memory_meter.hpp"
 #include "corruption/repair.hpp"
+#include "fuzz/require.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,16 +14,13 @@
 namespace {
 
 using tvg::Decoder;
+using tvg::fuzz::require;
 
 // Bits of the input's first byte.
 constexpr std::uint8_t kRepairLengths = 1;
 constexpr std::uint8_t kRepairChecksums = 2;
 constexpr std::uint8_t kMeasureBits = 4;
 constexpr std::uint8_t kCopyWide = 8;
-
-void require(bool condition) {
-  if (!condition) __builtin_trap();
-}
 
 tvg::DecoderLimits small_limits() {
   tvg::DecoderLimits limits;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <tvg/error.hpp>
@@ -12,9 +13,12 @@
 
 namespace tvg {
 
-/// Key-value pairs in UTF-8. Reserved keys: `fps` ("30", "30000/1001"), `name`, `units` ("m", "cm", ...),
-/// `up` ("y", "z").
+/// Key-value pairs of text (see is_metadata_text). Reserved keys: `fps` ("30", "30000/1001"), `name`, `units`
+/// ("m", "cm", ...), `up` ("y", "z").
 using Metadata = std::map<std::string, std::string>;
+
+/// Whether `text` may be a key or a value of metadata: well-formed UTF-8 without U+0000 (format-spec §4.2).
+bool is_metadata_text(std::string_view text);
 
 /// Positions of one frame: float32 [vertex][xyz], 3 * vertex_count values.
 using FramePositions = std::vector<float>;
