@@ -56,7 +56,7 @@ sanitize:
 fuzz:
 	@scripts/install_packages.sh build check
 	@$(CONFIGURE) fuzz >/dev/null
-	$(call BUILD,build/fuzz)
+	$(call BUILD,build/fuzz,--target tvg_fuzzers)
 	@scripts/run_fuzzers.sh build/fuzz $(FUZZ_SECONDS)
 
 clean:

@@ -30,7 +30,9 @@ constexpr std::array<PaperRow, 7> kPaperTable = {{{13, 13, 182.0},
                                                   {9, 7, 91.1},
                                                   {7, 7, 76.7}}};
 constexpr std::size_t kPaperFrames = 50;
-constexpr double kPaperShare = 0.35;
+/// The paper does not say which share it marked. Ours by default, and the one that fits its file sizes best
+/// (bench/measure).
+constexpr std::array<double, 2> kShares = {0.35, 0.15};
 
 double million_per_second(double count, double seconds) {
   return count / seconds / 1e6;
@@ -44,28 +46,36 @@ std::string machine() {
   return "unknown CPU";
 }
 
+void print_paper_row(const Sequence& sequence, const PaperRow& row, double share) {
+  TvgSettings settings;
+  settings.fine_bits = row.fine_bits;
+  settings.coarse_bits = row.coarse_bits;
+  settings.important_share = share;
+  settings.gop_frames = kPaperFrames;
+  const TvgResult result = run_tvg(sequence, settings);
+  const auto bytes = static_cast<double>(result.codec.bytes);
+  const bool hybrid = row.fine_bits != row.coarse_bits;
+  const std::string bits =
+      std::to_string(row.fine_bits) + (hybrid ? "-" + std::to_string(row.coarse_bits) : "");
+  const std::string marked = hybrid ? std::to_string(std::lround(100 * share)) + " %" : "";
+  std::printf("%6s %6s %9.1f %9zu %9.1f %10.3f %10.3f %7.3f %7.2f\n", bits.c_str(), marked.c_str(),
+              row.kilobytes, result.codec.bytes, bytes / 1000, bytes / (1000 * row.kilobytes),
+              bytes / (1024 * row.kilobytes),
+              bits_per_coordinate(result.codec.bytes, sequence.mesh.vertex_count, sequence.frames.size()),
+              compare(sequence, result.frames).snr_db);
+}
+
 void print_paper_table(const Sequence& chicken) {
   const Sequence sequence = first_frames(chicken, kPaperFrames);
-  std::printf("The paper's Table 1: chicken, first %zu frames, predictor elp, important share %.0f%%\n",
-              sequence.frames.size(), 100 * kPaperShare);
-  std::printf("%6s %9s %9s %9s %10s %10s %7s %7s\n", "bits", "paper KB", "bytes", "ours KB", "/paper1000",
-              "/paper1024", "bpc", "SNR dB");
+  std::printf("The paper's Table 1: chicken, first %zu frames, predictor elp\n", sequence.frames.size());
+  std::printf("%6s %6s %9s %9s %9s %10s %10s %7s %7s\n", "bits", "share", "paper KB", "bytes", "ours KB",
+              "/paper1000", "/paper1024", "bpc", "SNR dB");
   for (const PaperRow& row : kPaperTable) {
-    TvgSettings settings;
-    settings.fine_bits = row.fine_bits;
-    settings.coarse_bits = row.coarse_bits;
-    settings.important_share = kPaperShare;
-    settings.gop_frames = kPaperFrames;
-    const TvgResult result = run_tvg(sequence, settings);
-    const auto bytes = static_cast<double>(result.codec.bytes);
-    const std::string bits = row.fine_bits == row.coarse_bits
-                                 ? std::to_string(row.fine_bits)
-                                 : std::to_string(row.fine_bits) + "-" + std::to_string(row.coarse_bits);
-    std::printf("%6s %9.1f %9zu %9.1f %10.3f %10.3f %7.3f %7.2f\n", bits.c_str(), row.kilobytes,
-                result.codec.bytes, bytes / 1000, bytes / (1000 * row.kilobytes),
-                bytes / (1024 * row.kilobytes),
-                bits_per_coordinate(result.codec.bytes, sequence.mesh.vertex_count, sequence.frames.size()),
-                compare(sequence, result.frames).snr_db);
+    if (row.fine_bits == row.coarse_bits) {
+      print_paper_row(sequence, row, kShares.front());
+      continue;
+    }
+    for (const double share : kShares) print_paper_row(sequence, row, share);
   }
   std::printf(
       "(/paper1000, /paper1024: our bytes over the paper's, its KB taken as 1000 or as 1024 bytes)\n\n");

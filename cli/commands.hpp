@@ -8,9 +8,10 @@ class App;
 // returning, or by throwing ToolError.
 namespace tvg::cli {
 
-// Commands that make streams: encoder/.
+// Commands that make streams, and the one that shows what encoding goes by: encoder/.
 void add_encode_command(CLI::App& tool);
 void add_join_command(CLI::App& tool);
+void add_measure_command(CLI::App& tool);
 
 // Commands that read streams: decoder/.
 void add_decode_command(CLI::App& tool);

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   add_info_command(tool);
   add_verify_command(tool);
   add_compare_command(tool);
+  add_measure_command(tool);
   add_join_command(tool);
 #ifdef TVG_HAS_PLAYER
   add_play_command(tool);

@@ -1,13 +1,12 @@
 #include "cli/commands.hpp"
-#include "cli/mesh_format.hpp"
 #include "cli/option_values.hpp"
 #include "cli/progress.hpp"
 #include "cli/tool_error.hpp"
-#include "encoder/importers/open_source.hpp"
-#include "encoder/importers/skeleton_file.hpp"
+#include "encoder/input_options.hpp"
 #include "encoder/live_source.hpp"
 #include "encoder/measure_options.hpp"
 #include "encoder/stream_output.hpp"
+#include "encoder/watched_source.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -27,10 +26,8 @@ constexpr int kMostBits = 24;
 constexpr std::uint32_t kLiveGopFrames = 15;  // who joins a live stream waits half a second at most
 constexpr double kUsualFrameRate = 30;
 
-struct EncodeArguments {
-  std::vector<std::string> inputs;
+struct EncodeArguments : InputArguments {
   std::string output;
-  std::string frames;
   std::string bits = "11";
   std::string step;
   MeasureArguments measure;
@@ -42,10 +39,6 @@ struct EncodeArguments {
   bool live = false;
   bool loop = false;
   bool quiet = false;
-  std::string fps;
-  std::string clip;
-  std::vector<std::string> meshes;
-  std::string skeleton;
   std::string name;
   std::string units;
   std::vector<std::string> metadata;
@@ -99,31 +92,6 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   return options;
 }
 
-/// Passes frames on and keeps the source's own error, which names its file: the encoder's do not.
-class WatchedSource final : public FrameSource {
- public:
-  explicit WatchedSource(FrameSource& source) : source_(source) {}
-
-  const Mesh& mesh() const override { return source_.mesh(); }
-  Metadata metadata() const override { return source_.metadata(); }
-  const Skeleton& skeleton() const override { return source_.skeleton(); }
-  std::span<const float> joint_positions() const override { return source_.joint_positions(); }
-  std::optional<std::uint64_t> frame_count() const override { return source_.frame_count(); }
-  Result<bool> read_frame(std::span<float> positions) override {
-    Result<bool> read = source_.read_frame(positions);
-    if (!read) error_ = read.error();
-    return read;
-  }
-  bool rewind() override { return source_.rewind(); }
-
-  /// What read_frame() failed with, if it did.
-  const std::optional<Error>& error() const { return error_; }
-
- private:
-  FrameSource& source_;
-  std::optional<Error> error_;
-};
-
 /// How the frames of a live stream come: a pipe's when they come, others at their rate.
 LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata) {
   LiveInput input;
@@ -161,24 +129,10 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
 
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
-  SourceSpec spec{arguments.inputs, {}};
-  spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
-  const bool motion_capture = has_suffix(arguments.skeleton, ".bvh");
-  if (motion_capture) spec.skeleton = arguments.skeleton;
-  spec.open_ended = arguments.live;
-  if (!arguments.frames.empty()) {
-    spec.frames = parse_frame_range(arguments.frames);
-    options.first_frame = spec.frames->first;
-  }
-  OpenedSource opened = open_source(spec);
-  if (!arguments.skeleton.empty() && !motion_capture) {
-    opened.source = with_joints(std::move(opened.source), read_skeleton_file(arguments.skeleton),
-                                arguments.skeleton, options.first_frame);
-  }
+  const OpenedInput opened = open_input(arguments, arguments.live);
+  options.first_frame = opened.first_frame;
   check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
-  if (!arguments.quiet) {
-    for (const std::string& note : opened.notes) fmt::print(stderr, "note: {}\n", note);
-  }
+  if (!arguments.quiet) print_notes(opened);
   std::unique_ptr<LiveSource> live;
   if (arguments.live) {
     live = std::make_unique<LiveSource>(*opened.source, live_input(arguments, opened.source->metadata()));
@@ -196,7 +150,7 @@ void run_encode(const EncodeArguments& arguments) {
   WatchedSource source(live != nullptr ? *live : *opened.source);
   const Result<EncodeReport> report = encode(source, options, sink, progress);
   if (source.error()) throw tool_error(*source.error());
-  if (!report) throw tool_error(fmt::format("{}", fmt::join(arguments.inputs, ", ")), report.error());
+  if (!report) throw tool_error(input_names(arguments), report.error());
   output->finish();
 
   if (arguments.quiet) return;
@@ -212,18 +166,11 @@ void run_encode(const EncodeArguments& arguments) {
 void add_encode_command(CLI::App& tool) {
   auto arguments = std::make_shared<EncodeArguments>();
   CLI::App& command = *tool.add_subcommand("encode", "Make a .tvg of a mesh sequence");
-  command
-      .add_option(
-          "input", arguments->inputs,
-          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
-          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj), or a scene (glTF 2, FBX, COLLADA, X, "
-          "MD5, MD2, ...)")
-      ->required();
+  add_input_options(command, *arguments);
   command
       .add_option("-o,--output", arguments->output,
                   "the stream to write; - for standard output; an http or https URL for an upload by PUT")
       ->required();
-  command.add_option("--frames", arguments->frames, "encode frames A-B only, counted from 0");
   auto* bits = command
                    .add_option("--bits", arguments->bits,
                                "bits per coordinate of important and of other vertices (13:11), or of all")
@@ -250,14 +197,6 @@ void add_encode_command(CLI::App& tool) {
   command.add_option("--fps", arguments->fps,
                      "frames per second, kept with the stream (30, 30000/1001); a scene is sampled at it "
                      "(default 30)");
-  command.add_option("--clip", arguments->clip,
-                     "the clip of a scene, by name or number (default: the first); tvg info lists them");
-  command.add_option("--mesh", arguments->meshes,
-                     "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
-  command.add_option("--skeleton", arguments->skeleton,
-                     "the joints of a cache or sequence: a BVH file (frame by frame where it has as many, "
-                     "else by time), or JSON "
-                     "as tvg_corpus writes it");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");

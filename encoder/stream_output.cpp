@@ -1,7 +1,7 @@
 #include "encoder/stream_output.hpp"
 
 #include "cli/atomic_file.hpp"
-#ifdef TVG_HAS_HTTP
+#ifdef TVG_HAS_PLAYER
 #include "encoder/http_upload.hpp"
 #else
 #include "cli/tool_error.hpp"
@@ -30,7 +30,7 @@ class FileOutput final : public StreamOutput {
 
 std::unique_ptr<StreamOutput> open_stream_output(const std::string& target, bool live) {
   if (target.starts_with("http://") || target.starts_with("https://")) {
-#ifdef TVG_HAS_HTTP
+#ifdef TVG_HAS_PLAYER
     return std::make_unique<HttpUpload>(target);
 #else
     throw ToolError(ExitStatus::kUsage, "cannot upload to " + target +

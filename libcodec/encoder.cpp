@@ -1,8 +1,10 @@
 #include "container/layout.hpp"
 #include "container/stream_writer.hpp"
 #include "gop_encoder.hpp"
+#include "gop_reader.hpp"
 #include "mesh_encoder.hpp"
 #include "quantization/bounding_box.hpp"
+#include "source_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,39 +44,6 @@ Status check_options(const EncodeOptions& options) {
   return {};
 }
 
-Status check_mesh(const Mesh& mesh) {
-  const auto invalid = [](std::string message) {
-    return Error{ErrorCode::kInvalidInput, std::move(message), {}, {}, ""};
-  };
-  if (mesh.vertex_count == 0) return invalid("the mesh has no vertices");
-  if (mesh.vertex_count >= 0x80000000u || mesh.faces.size() >= 0x2AAAAAAAu) {
-    return invalid("the mesh has more vertices or faces than a stream can hold");
-  }
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    for (const std::uint32_t corner : mesh.faces[f]) {
-      if (corner >= mesh.vertex_count) {
-        return invalid("face " + std::to_string(f) + " refers to vertex " + std::to_string(corner) +
-                       ", the mesh has " + std::to_string(mesh.vertex_count));
-      }
-    }
-  }
-  return {};
-}
-
-/// Reads the next frame and refuses what no lattice can hold. False at the end.
-Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint64_t number) {
-  Result<bool> read = source.read_frame(frame);
-  if (!read || !*read) return read;
-  const auto bad = std::find_if_not(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); });
-  if (bad == frame.end()) return true;
-  const auto i = static_cast<std::size_t>(bad - frame.begin());
-  return Error{ErrorCode::kInvalidInput,
-               "vertex " + std::to_string(i / 3) + " has a coordinate that is infinite or not a number",
-               {},
-               number,
-               ""};
-}
-
 StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   StreamLimits limits;
   limits.vertices = mesh.vertex_count;
@@ -96,7 +65,7 @@ class GopQueue {
 
   Status add(GopInput input, const CodedMesh& mesh, const EncodeOptions& options,
              const StreamLimits& limits) {
-    const auto frame_count = static_cast<std::uint32_t>(input.content->frames.size());
+    const auto frame_count = static_cast<std::uint32_t>(input.frames.content->frames.size());
     const auto policy = threads_ > 1 ? std::launch::async : std::launch::deferred;
     pending_.push_back({frame_count, std::async(policy, [input = std::move(input), &mesh, &options, &limits] {
                           return encode_gop(input, mesh, options, limits);
@@ -156,57 +125,6 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
   return std::optional(box);
 }
 
-/// Where the joints are in the frame that was read last, which all have to be somewhere.
-Result<std::vector<float>> read_joints(const FrameSource& source, std::uint64_t number) {
-  const std::span<const float> joints = source.joint_positions();
-  const std::size_t joint_count = source.skeleton().joint_names.size();
-  const auto invalid = [number](std::string message) {
-    return Error{ErrorCode::kInvalidInput, std::move(message), {}, number, ""};
-  };
-  if (joints.size() != 3 * joint_count) {
-    return invalid("there are positions for " + std::to_string(joints.size() / 3) + " of the skeleton's " +
-                   std::to_string(joint_count) + " joints");
-  }
-  if (!std::all_of(joints.begin(), joints.end(), [](float x) { return std::isfinite(x); })) {
-    return invalid("a joint has a coordinate that is infinite or not a number");
-  }
-  return std::vector<float>(joints.begin(), joints.end());
-}
-
-/// The frames of the next GOP, and their box.
-struct GopRead {
-  GopFrames content;
-  BoundingBox box;
-  bool at_end = false;  ///< of the sequence
-};
-
-Result<GopRead> read_gop(FrameSource& source, const EncodeOptions& options, std::uint64_t number) {
-  const bool with_joints = uses_skeleton(options.importance);
-  GopRead gop;
-  for (; gop.content.frames.size() < options.gop_frames; ++number) {
-    FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
-    const Result<bool> read = read_checked(source, frame, number);
-    if (!read) return read.error();
-    gop.at_end = !*read;
-    if (gop.at_end) break;
-    gop.box.extend(frame);
-    gop.content.frames.push_back(std::move(frame));
-    if (!with_joints) continue;
-    Result<std::vector<float>> joints = read_joints(source, number);
-    if (!joints) return joints.error();
-    gop.content.joints.push_back(std::move(*joints));
-  }
-  return gop;
-}
-
-/// The first frame alone.
-std::shared_ptr<const GopFrames> first_frame_of(const GopFrames& content) {
-  auto first = std::make_shared<GopFrames>();
-  first->frames.push_back(content.frames.front());
-  if (!content.joints.empty()) first->joints.push_back(content.joints.front());
-  return first;
-}
-
 /// The encoding pipeline: frames → GOPs → chunks.
 Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                                     const EncodeProgress& progress) {
@@ -231,26 +149,20 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
     return status.error();
 
   GopQueue queue(writer, options.threads, progress, source.frame_count());
-  std::shared_ptr<const GopFrames> previous;
-  std::uint64_t number = 0;
-  for (bool at_end = false; !at_end;) {
-    Result<GopRead> read = read_gop(source, options, number);
+  GopReader reader(source, options.gop_frames, options.importance);
+  for (;;) {
+    Result<std::optional<GopContent>> read = reader.next();
     if (!read) return read.error();
-    at_end = read->at_end;
-    if (read->content.frames.empty()) break;
-    const Result<Lattice> lattice = lattice_over(*whole_box ? **whole_box : read->box, options.fine_bits,
+    if (!*read) break;
+    GopContent& frames = **read;
+    const Result<Lattice> lattice = lattice_over(*whole_box ? **whole_box : frames.box, options.fine_bits,
                                                  options.coarse_bits, options.step);
     if (!lattice) return lattice.error();
-    const auto content = std::make_shared<const GopFrames>(std::move(read->content));
-    if (!previous) previous = first_frame_of(*content);
-    GopInput gop{content, options.importance.low_delay ? previous : content, &source.skeleton(),
-                 options.first_frame + number, *lattice};
-    number += content->frames.size();
-    previous = content;
+    frames.first_frame += options.first_frame;
+    GopInput gop{std::move(frames), &source.skeleton(), *lattice};
     if (Status status = queue.add(std::move(gop), mesh.coded, options, limits); !status.ok())
       return status.error();
   }
-  if (number == 0) return Error{ErrorCode::kInvalidInput, "the sequence has no frames", {}, {}, ""};
   if (Status status = queue.finish(); !status.ok()) return status.error();
   if (Status status = writer.write_end(); !status.ok()) return status.error();
   return EncodeReport{queue.frames(), source.mesh().vertex_count, queue.gops(), writer.offset(), !*whole_box};

@@ -18,7 +18,7 @@ namespace {
 Result<std::vector<std::uint8_t>> choose_flags(const GopInput& input, const CodedMesh& mesh,
                                                const Importance& importance) {
   if (!input.lattice.hybrid()) return std::vector<std::uint8_t>();
-  const GopFrames& seen = *input.marked_by;
+  const GopFrames& seen = *input.frames.marked_by;
   const Result<Measure> measured = measure(mesh.mesh, seen.frames, *input.skeleton, seen.joints, importance);
   if (!measured) return measured.error();
   std::vector<std::uint8_t> flags(measured->flags.size());
@@ -58,7 +58,7 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
 
   ByteWriter gop;
   const std::vector<std::uint8_t> header = write_gop_header(
-      {input.first_frame, static_cast<std::uint32_t>(input.content->frames.size()),
+      {input.frames.first_frame, static_cast<std::uint32_t>(input.frames.content->frames.size()),
        static_cast<std::uint8_t>(options.predictor), static_cast<std::uint8_t>(lattice.fine_bits),
        static_cast<std::uint8_t>(lattice.coarse_bits), lattice.origin, lattice.step, coded_flags});
   write_packet(gop, 0, header);
@@ -68,7 +68,7 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
   Hasher digest;
   std::size_t largest_packet = header.size();
   std::uint32_t packet_index = 0;
-  for (const FramePositions& frame : input.content->frames) {
+  for (const FramePositions& frame : input.frames.content->frames) {
     frames.next_frame();
     quantize_frame(frame, mesh, flags, lattice, frames.indices());
     frames.code(coder);
@@ -86,7 +86,7 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
     return Error{ErrorCode::kLimitExceeded,
                  "the GOP is larger than a chunk can be: use fewer frames per GOP",
                  {},
-                 input.first_frame,
+                 input.frames.first_frame,
                  "§4.1"};
   }
   return write_chunk(kGopChunk, false, gop.data());

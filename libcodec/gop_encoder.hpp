@@ -1,4 +1,5 @@
 #pragma once
+#include "gop_reader.hpp"
 #include "mesh_coder.hpp"
 #include "quantization/lattice.hpp"
 
@@ -10,18 +11,10 @@
 
 namespace tvg {
 
-/// A run of frames in memory.
-struct GopFrames {
-  std::vector<FramePositions> frames;      ///< [frame][vertex][xyz], in the order of the input mesh
-  std::vector<std::vector<float>> joints;  ///< [frame][joint][xyz]; empty unless the measure uses them
-};
-
-/// One GOP and where it lies. Frames are shared: those of one GOP may mark the next.
+/// One GOP and where it lies.
 struct GopInput {
-  std::shared_ptr<const GopFrames> content;
-  std::shared_ptr<const GopFrames> marked_by;  ///< what the measure looks at
+  GopContent frames;  ///< `first_frame` is that of the sequence the frames come from
   const Skeleton* skeleton = nullptr;
-  std::uint64_t first_frame = 0;  ///< in the sequence the frames come from
   Lattice lattice;
 };
 

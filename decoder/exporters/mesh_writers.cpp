@@ -68,17 +68,34 @@ void write_off(AtomicFile& file, const Mesh& mesh, std::span<const float> positi
   write_text(file, mesh, positions, false);
 }
 
-void write_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions) {
+void write_float(AtomicFile& file, float value) {
+  std::array<char, 4> bytes;
+  store32(bytes.data(), value, false);
+  file.write(bytes.data(), bytes.size());
+}
+
+void write_colour(AtomicFile& file, const Colour& colour) {
+  const auto byte = [](float part) { return static_cast<char>(std::lround(255 * part)); };
+  const std::array<char, 3> bytes = {byte(colour.red), byte(colour.green), byte(colour.blue)};
+  file.write(bytes.data(), bytes.size());
+}
+
+void write_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
+               const VertexAttributes& attributes) {
+  std::string properties;
+  if (!attributes.colours.empty())
+    properties += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  for (const auto& [name, values] : attributes.named) properties += "property float " + name + "\n";
   file.write(fmt::format(
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n"
+      "property float x\nproperty float y\nproperty float z\n{}"
       "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-      mesh.vertex_count, mesh.faces.size(),
+      mesh.vertex_count, properties, mesh.faces.size(),
       mesh.vertex_count > std::uint32_t{std::numeric_limits<std::int32_t>::max()} ? "uint" : "int"));
-  for (const float value : positions) {
-    std::array<char, 4> bytes;
-    store32(bytes.data(), value, false);
-    file.write(bytes.data(), bytes.size());
+  for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
+    for (std::size_t axis = 0; axis < 3; ++axis) write_float(file, positions[3 * vertex + axis]);
+    if (!attributes.colours.empty()) write_colour(file, attributes.colours[vertex]);
+    for (const auto& [name, values] : attributes.named) write_float(file, values[vertex]);
   }
   for (const Face& face : mesh.faces) {
     std::array<char, 13> bytes;
@@ -139,7 +156,7 @@ void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span
       write_obj(file, mesh, positions, name);
       break;
     case MeshFormat::kPly:
-      write_ply(file, mesh, positions);
+      write_ply(file, mesh, positions, {});
       break;
     case MeshFormat::kOff:
       write_off(file, mesh, positions);
@@ -148,6 +165,11 @@ void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span
       write_stl(file, mesh, positions);
       break;
   }
+}
+
+void write_coloured_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
+                        const VertexAttributes& attributes) {
+  write_ply(file, mesh, positions, attributes);
 }
 
 }  // namespace tvg::cli

@@ -1,9 +1,12 @@
 #pragma once
 #include "cli/atomic_file.hpp"
+#include "cli/colour_map.hpp"
 #include "cli/mesh_format.hpp"
 
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <tvg/mesh.hpp>
 
@@ -17,5 +20,16 @@ inline constexpr const char* kObjMark = "# TVG\n";
 /// vertices without a face, are lost. `name` is the object's name in OBJ, where it is not empty.
 void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span<const float> positions,
                 const std::string& name);
+
+/// What a PLY can say of vertices beside where they are.
+struct VertexAttributes {
+  std::vector<Colour> colours;                                    ///< [vertex]
+  std::vector<std::pair<std::string, std::vector<float>>> named;  ///< name of the property, values [vertex]
+};
+
+/// write_mesh() for PLY, with attributes of the vertices: colours as `red`, `green`, `blue` (uchar, sRGB), as
+/// viewers know them, and each of `named` as a float.
+void write_coloured_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
+                        const VertexAttributes& attributes);
 
 }  // namespace tvg::cli

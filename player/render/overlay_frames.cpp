@@ -88,7 +88,7 @@ void OverlayFrames::set_scale(bool complete) {
 }
 
 void OverlayFrames::scale() {
-  scale_values(frame_.values, *largest_);
+  scale_values(frame_.values, {0, *largest_});
 }
 
 void OverlayFrames::make_legend(bool complete) {

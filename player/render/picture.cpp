@@ -73,6 +73,19 @@ void PicturePainter::legend(const Legend& legend, bool between) {
   draw_legend(*list_, place, legend);
 }
 
+void PicturePainter::legend(const Legend& legend, const Cell& cell) {
+  if (list_ == nullptr) return;
+  const float size = text_size(framebuffer_.height());
+  draw_legend(*list_, {static_cast<float>(cell.x) + size, static_cast<float>(cell.y) + size, size}, legend);
+}
+
+void PicturePainter::pose(const Pose& pose, const Cell& cell) {
+  if (list_ == nullptr) return;
+  const PictureArea area{static_cast<float>(cell.x), static_cast<float>(cell.y),
+                         static_cast<float>(cell.width), static_cast<float>(cell.height)};
+  draw_pose(*list_, camera_, area, pose, text_size(framebuffer_.height()));
+}
+
 const Image& PicturePainter::finish() {
   if (text_) text_->end();
   list_ = nullptr;

@@ -1,6 +1,7 @@
 #pragma once
 #include "player/render/shown_frames.hpp"
 #include "player/view/framebuffer.hpp"
+#include "player/view/joint_overlay.hpp"
 #include "player/view/mesh_renderer.hpp"
 #include "player/view/offscreen_context.hpp"
 #include "player/view/text_layer.hpp"
@@ -44,6 +45,10 @@ class PicturePainter {
   void label(const Cell& cell, const std::string& text);
   /// The legend in the upper left corner of the picture, or between two cells side by side.
   void legend(const Legend& legend, bool between);
+  /// A legend of its own in the upper left corner of a cell.
+  void legend(const Legend& legend, const Cell& cell);
+  /// A skeleton over what was drawn into a cell.
+  void pose(const Pose& pose, const Cell& cell);
   /// The picture, valid until the next begin().
   const Image& finish();
 

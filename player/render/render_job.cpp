@@ -72,11 +72,9 @@ class RenderJob {
       bounds_.pad(0.12);
     }
     frames_.set_scale(surveyed_);
-    const Metadata metadata = frames_.metadata();
-    const auto up = metadata.find("up");
     OrbitCamera camera;
     camera.set_angles(options_.angles);
-    const UpAxis up_axis = up != metadata.end() && up->second == "z" ? UpAxis::kZ : UpAxis::kY;
+    const UpAxis up_axis = up_axis_of(frames_.metadata());
     camera.fit_closely(bounds_, up_axis, static_cast<double>(cell_width) / cell_height);
     painter.set_scene(bounds_, up_axis, camera);
   }

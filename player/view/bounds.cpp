@@ -5,6 +5,11 @@
 
 namespace tvg::cli {
 
+UpAxis up_axis_of(const Metadata& metadata) {
+  const auto up = metadata.find("up");
+  return up != metadata.end() && up->second == "z" ? UpAxis::kZ : UpAxis::kY;
+}
+
 void Bounds::extend(std::span<const float> positions) {
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
     const std::array<double, 3> point = {positions[i], positions[i + 1], positions[i + 2]};

@@ -2,10 +2,15 @@
 #include <array>
 #include <span>
 
+#include <tvg/sequence.hpp>
+
 namespace tvg::cli {
 
 /// The axis that points up in a sequence (metadata `up`).
 enum class UpAxis { kY, kZ };
+
+/// kZ where the metadata say so.
+UpAxis up_axis_of(const Metadata& metadata);
 
 /// An axis-aligned box around what is shown.
 class Bounds {

@@ -40,6 +40,9 @@ struct Look {
   Style style;
 };
 
+/// Declares --size, --camera, --shading and the like; `arguments` must outlive the parsing.
+void add_view_options(CLI::App& command, LookArguments& arguments);
+/// These, and --overlay and --ref.
 void add_look_options(CLI::App& command, LookArguments& arguments);
 
 /// Throws ToolError (kUsage) that shows what would be right.

@@ -1,7 +1,7 @@
 #pragma once
+#include "cli/colour_map.hpp"
 #include "player/view/bounds.hpp"
 #include "player/view/camera.hpp"
-#include "player/view/colour_map.hpp"
 #include "player/view/gl_objects.hpp"
 
 #include <array>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <tvg/measure.hpp>
 
@@ -26,22 +25,6 @@ void error_values(std::span<const float> frame, std::span<const float> reference
     };
     values[v] = static_cast<float>(std::hypot(off(0), off(1), off(2)));
   }
-}
-
-float value_at_share(std::span<const float> values, double share, std::vector<float>& scratch) {
-  scratch.clear();
-  std::copy_if(values.begin(), values.end(), std::back_inserter(scratch),
-               [](float value) { return std::isfinite(value); });
-  if (scratch.empty()) return 0;
-  const auto rank =
-      std::min(scratch.size() - 1, static_cast<std::size_t>(share * static_cast<double>(scratch.size())));
-  const auto at = scratch.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(scratch.begin(), at, scratch.end());
-  return *at;
-}
-
-void scale_values(std::span<float> values, float largest) {
-  for (float& value : values) value = largest > 0 ? std::clamp(value / largest, 0.0F, 1.0F) : 0.0F;
 }
 
 }  // namespace tvg::cli

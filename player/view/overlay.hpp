@@ -6,7 +6,8 @@
 #include <tvg/mesh.hpp>
 #include <tvg/sequence.hpp>
 
-// Values per vertex that colour a mesh, in their own units; scale_values() brings them to a colour map.
+// Values per vertex that colour a mesh, in their own units; scale_values() brings them to a colour map
+// (cli/colour_map.hpp).
 namespace tvg::cli {
 
 /// 1 for important vertices and 0 for others, from Decoder::copy_flags(). `values`: [vertex], as many as
@@ -20,12 +21,5 @@ std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions>
 /// Distance of each vertex of a frame from where a reference has it, in the units of the positions.
 /// `frame` and `reference`: [vertex][xyz] of one length; `values`: [vertex].
 void error_values(std::span<const float> frame, std::span<const float> reference, std::span<float> values);
-
-/// The value that a share of `values` does not exceed (0.999: all but the highest in a thousand); 0 where
-/// there are none. What is not finite does not count. `scratch` saves allocations from call to call.
-float value_at_share(std::span<const float> values, double share, std::vector<float>& scratch);
-
-/// Divides by `largest`, so that 0 to 1 remains; all 0 where `largest` is 0. In place.
-void scale_values(std::span<float> values, float largest);
 
 }  // namespace tvg::cli

@@ -51,7 +51,7 @@ void draw_scale(ImDrawList& list, float x, float y, float size, const Legend& le
   }
   constexpr int kTicks = 4;
   for (int i = 0; i <= kTicks; ++i) {
-    const double value = legend.largest * (kTicks - i) / kTicks;
+    const double value = legend.smallest + (legend.largest - legend.smallest) * (kTicks - i) / kTicks;
     const float at = y + height * static_cast<float>(i) / kTicks;
     list.AddLine({x + width, at}, {x + width + 0.3F * size, at}, kFaintInk);
     const std::string text =

@@ -1,5 +1,5 @@
 #pragma once
-#include "player/view/colour_map.hpp"
+#include "cli/colour_map.hpp"
 
 #include <string>
 
@@ -11,11 +11,12 @@ namespace tvg::cli {
 /// A colour bar with what its colours mean.
 struct Legend {
   ColourMap map = ColourMap::kViridis;
-  std::string title;   ///< "error"
-  std::string note;    ///< a second, smaller line; may be empty
-  double largest = 1;  ///< value at the bar's upper end; 0 is at its lower one; of no meaning for kFlags
-  std::string units;   ///< of the values, may be empty
-  std::string plain;   ///< kFlags: what the two colours stand for
+  std::string title;    ///< "error"
+  std::string note;     ///< a second, smaller line; may be empty
+  double smallest = 0;  ///< values at the bar's ends; of no meaning for kFlags
+  double largest = 1;
+  std::string units;  ///< of the values, may be empty
+  std::string plain;  ///< kFlags: what the two colours stand for
   std::string flagged;
 };
 

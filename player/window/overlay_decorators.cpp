@@ -83,7 +83,7 @@ class CostDecorator final : public OverlayDecorator {
       if (whole) remember();
     }
     frame.values = *present_;
-    scale_values(frame.values, scale_.largest());
+    scale_values(frame.values, {0, scale_.largest()});
   }
 
  private:
@@ -127,7 +127,7 @@ class ErrorDecorator final : public OverlayDecorator {
     }
     frame.values.resize(frame.positions.size() / 3);
     error_values(frame.positions, reference_.positions, frame.values);
-    scale_values(frame.values, scale_.take(frame.values));
+    scale_values(frame.values, {0, scale_.take(frame.values)});
   }
 
  private:

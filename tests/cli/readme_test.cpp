@@ -25,9 +25,22 @@ TEST_F(ToolTest, TheReadmesDecoderExampleIsTheOneThatIsCompiledAndRuns) {
   EXPECT_NEAR(std::stod(frames.out), hand_.frames[0][0], 0.01);
 }
 
+TEST_F(ToolTest, TheReadmeShowsTheVelocityCriterionAsItIs) {
+  const std::string readme = read(std::string(TVG_PROJECT) + "/README.md");
+  const std::string code = read(std::string(TVG_PROJECT) + "/libcodec/measure/velocity.cpp");
+  const std::size_t begin = code.find("std::vector<double> velocity_criterion");
+  const std::size_t end = code.find("\n}\n", begin);
+  ASSERT_NE(end, std::string::npos);
+  EXPECT_NE(readme.find(code.substr(begin, end - begin + 3)), std::string::npos);
+  const std::string table = read(std::string(TVG_PROJECT) + "/libcodec/measure/criterion.cpp");
+  const std::string line = R"(    {"velocity", "mean way from frame to frame", velocity_criterion},)";
+  EXPECT_NE(table.find(line), std::string::npos);
+  EXPECT_NE(readme.find(line), std::string::npos);
+}
+
 TEST_F(ToolTest, TheReadmeNamesEveryCommandAndOption) {
   const std::string readme = read(std::string(TVG_PROJECT) + "/README.md");
-  std::vector<std::string> commands = {"encode", "decode", "info", "verify", "compare", "join"};
+  std::vector<std::string> commands = {"encode", "decode", "info", "verify", "compare", "measure", "join"};
 #ifdef TVG_HAS_PLAYER
   commands.insert(commands.end(), {"play", "render", "serve"});
 #endif

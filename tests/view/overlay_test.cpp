@@ -2,7 +2,6 @@
 
 #include "corpus/corpus.hpp"
 
-#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -54,25 +53,6 @@ TEST(ImportanceOverlay, IsOneForFlaggedVertices) {
   std::vector<float> values(3, 9.0F);
   importance_values(std::vector<std::uint8_t>{1, 0, 1}, values);
   EXPECT_EQ(values, (std::vector<float>{1, 0, 1}));
-}
-
-TEST(OverlayScale, LeavesOutTheFewHighestAndWhatIsNotFinite) {
-  std::vector<float> values;
-  for (int i = 0; i < 1000; ++i) values.push_back(static_cast<float>(i));
-  values.push_back(INFINITY);
-  values.push_back(NAN);
-  std::vector<float> scratch;
-  EXPECT_EQ(value_at_share(values, 0.95, scratch), 950);
-  EXPECT_EQ(value_at_share(values, 1.0, scratch), 999);
-  EXPECT_EQ(value_at_share({}, 0.5, scratch), 0);
-}
-
-TEST(OverlayScale, BringsValuesBetweenZeroAndOne) {
-  std::vector<float> values = {0, 1, 4, 100};
-  scale_values(values, 4);
-  EXPECT_EQ(values, (std::vector<float>{0, 0.25F, 1, 1}));
-  scale_values(values, 0);
-  EXPECT_EQ(values, (std::vector<float>{0, 0, 0, 0}));
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ Image draw_cost() {
   ShownFrame frame = shown_frame(cloth, kFrames - 1);
   frame.values = cost_values(cloth.mesh, cloth.frames);
   std::vector<float> scratch;
-  scale_values(frame.values, value_at_share(frame.values, 0.95, scratch));
+  scale_values(frame.values, {0, value_at_share(frame.values, 0.95, scratch)});
   return draw(cloth, frame, {});
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,5 +92,22 @@ struct Measure {
 /// are fewer frames of joints than of vertices or a frame has a wrong size.
 Result<Measure> measure(const Mesh& mesh, std::span<const FramePositions> frames, const Skeleton& skeleton,
                         std::span<const std::vector<float>> joints, const Importance& importance);
+
+/// The measure of one GOP of a sequence, and the frames it is about.
+struct GopMeasure {
+  std::uint64_t first_frame = 0;               ///< counted from the source's first
+  std::span<const FramePositions> frames;      ///< [frame][vertex][xyz], valid during the call
+  std::span<const std::vector<float>> joints;  ///< [frame][joint][xyz]; empty unless a criterion uses them
+  std::uint64_t measured_frames = 0;           ///< how many were looked at: its own, or the GOP's before
+  Measure measure;                             ///< as encode() has it with the same importance
+};
+
+using GopMeasureSink = std::function<Status(const GopMeasure&)>;
+
+/// Measures a source from its present frame to its end in GOPs of `gop_frames` frames, as encode() cuts them,
+/// and passes each to `sink`, whose error ends it. One GOP is in memory at a time. Fails as encode() does
+/// where the mesh, the frames or the importance are not as they should be.
+Status measure_gops(FrameSource& source, std::uint32_t gop_frames, const Importance& importance,
+                    const GopMeasureSink& sink);
 
 }  // namespace tvg

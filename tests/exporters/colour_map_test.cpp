@@ -1,4 +1,4 @@
-#include "player/view/colour_map.hpp"
+#include "cli/colour_map.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -50,6 +50,28 @@ TEST(ColourMaps, TakeAnyValue) {
     EXPECT_EQ(map_colour(map, -1e30).green, low.green);
     EXPECT_EQ(map_colour(map, INFINITY).green, high.green);
   }
+}
+
+TEST(ColourScale, LeavesOutTheFewHighestAndWhatIsNotFinite) {
+  std::vector<float> values;
+  for (int i = 0; i < 1000; ++i) values.push_back(static_cast<float>(i));
+  values.push_back(INFINITY);
+  values.push_back(NAN);
+  std::vector<float> scratch;
+  EXPECT_EQ(value_at_share(values, 0.95, scratch), 950);
+  EXPECT_EQ(value_at_share(values, 1.0, scratch), 999);
+  EXPECT_EQ(value_at_share({}, 0.5, scratch), 0);
+}
+
+TEST(ColourScale, BringsValuesBetweenZeroAndOne) {
+  std::vector<float> values = {0, 1, 4, 100};
+  scale_values(values, {0, 4});
+  EXPECT_EQ(values, (std::vector<float>{0, 0.25F, 1, 1}));
+  scale_values(values, {0, 0});
+  EXPECT_EQ(values, (std::vector<float>{0, 0, 0, 0}));
+  values = {-3, -2, -1, 5};
+  scale_values(values, {-2, 0});
+  EXPECT_EQ(values, (std::vector<float>{0, 0, 0.5F, 1}));
 }
 
 }  // namespace

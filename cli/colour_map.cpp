@@ -1,8 +1,9 @@
-#include "player/view/colour_map.hpp"
+#include "cli/colour_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace tvg::cli {
 
@@ -70,6 +71,25 @@ std::array<std::uint8_t, 4 * std::size_t{kColourMapSamples}> colour_map_samples(
     samples[4 * i + 3] = 255;
   }
   return samples;
+}
+
+float value_at_share(std::span<const float> values, double share, std::vector<float>& scratch) {
+  scratch.clear();
+  std::copy_if(values.begin(), values.end(), std::back_inserter(scratch),
+               [](float value) { return std::isfinite(value); });
+  if (scratch.empty()) return 0;
+  const auto rank =
+      std::min(scratch.size() - 1, static_cast<std::size_t>(share * static_cast<double>(scratch.size())));
+  const auto at = scratch.begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(scratch.begin(), at, scratch.end());
+  return *at;
+}
+
+void scale_values(std::span<float> values, const ValueRange& range) {
+  const float extent = range.largest - range.smallest;
+  for (float& value : values) {
+    value = extent > 0 ? std::clamp((value - range.smallest) / extent, 0.0F, 1.0F) : 0.0F;
+  }
 }
 
 }  // namespace tvg::cli

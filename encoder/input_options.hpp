@@ -1,0 +1,43 @@
+#pragma once
+#include "encoder/importers/open_source.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+// What a user names as the animation, for every command that reads one whole.
+namespace tvg::cli {
+
+/// Values of the options as typed.
+struct InputArguments {
+  std::vector<std::string> inputs;
+  std::string frames;
+  std::string fps;
+  std::string clip;
+  std::vector<std::string> meshes;
+  std::string skeleton;
+};
+
+/// Declares the inputs, --frames, --clip, --mesh and --skeleton; `arguments` must outlive the parsing. --fps
+/// is left to the command: what it means differs.
+void add_input_options(CLI::App& command, InputArguments& arguments);
+
+struct OpenedInput : OpenedSource {
+  std::uint64_t first_frame = 0;  ///< of --frames
+};
+
+/// Opens the inputs, with the joints of --skeleton. Throws as open_source(), read_skeleton_file() and
+/// with_joints() do. `open_ended`: see SourceSpec.
+OpenedInput open_input(const InputArguments& arguments, bool open_ended);
+
+/// The inputs, for messages: "hand.obj, hand.pc2".
+std::string input_names(const InputArguments& arguments);
+
+/// Prints what importing brought to light to standard error.
+void print_notes(const OpenedSource& opened);
+
+}  // namespace tvg::cli

@@ -1,0 +1,65 @@
+#include "player/render/measure_picture.hpp"
+
+#include "player/render/picture.hpp"
+#include "player/view/image.hpp"
+#include "player/view/overlay.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace tvg::cli {
+
+namespace {
+
+Legend cost_legend(const std::string& criteria, const ValueRange& range) {
+  Legend legend;
+  legend.map = ColourMap::kViridis;
+  legend.title = "cost";
+  legend.note = criteria;
+  legend.smallest = double{range.smallest};
+  legend.largest = double{range.largest};
+  return legend;
+}
+
+Legend flags_legend(const std::vector<std::uint8_t>& flags) {
+  const auto important = static_cast<double>(std::count(flags.begin(), flags.end(), 1));
+  Legend legend;
+  legend.map = ColourMap::kFlags;
+  legend.title = "importance";
+  legend.flagged = fmt::format("important ({:.1f} %)", 100 * important / static_cast<double>(flags.size()));
+  legend.plain = "other";
+  return legend;
+}
+
+}  // namespace
+
+void draw_measure_picture(const std::string& path, const FrameSource& source, const MeasuredFrame& frame,
+                          const std::string& criteria, const Look& look) {
+  const std::vector<Cell> cells = sheet_cells(look.width, look.height, 2, 1);
+  PicturePainter painter(look.width, look.height, look.style, true);
+  Bounds bounds;
+  bounds.extend(frame.positions);
+  OrbitCamera camera;
+  camera.set_angles(look.angles);
+  const UpAxis up = up_axis_of(source.metadata());
+  camera.fit_closely(bounds, up, static_cast<double>(cells[0].width) / cells[0].height);
+  painter.set_scene(bounds, up, camera);
+
+  const ValueRange range = cost_range(frame.cost);
+  ShownFrame shown{frame.number, 0, std::make_shared<const Mesh>(source.mesh()), frame.positions, frame.cost};
+  painter.begin();
+  scale_values(shown.values, range);
+  painter.draw(shown, PicturePainter::Which::kShown, ColourMap::kViridis, cells[0]);
+  importance_values(frame.flags, shown.values);
+  painter.draw(shown, PicturePainter::Which::kReference, ColourMap::kFlags, cells[1]);
+  if (!frame.joints.empty()) {
+    for (const Cell& cell : cells) painter.pose({source.skeleton(), frame.joints, frame.dynamic}, cell);
+    painter.label(cells[1], "orange joints bend");
+  }
+  painter.legend(cost_legend(criteria, range), cells[0]);
+  painter.legend(flags_legend(frame.flags), cells[1]);
+  painter.label(cells[0], fmt::format("frame {}", frame.number));
+  write_png(path, painter.finish());
+}
+
+}  // namespace tvg::cli
