@@ -1,13 +1,12 @@
 #pragma once
 #include <cstdio>
-#include <source_location>
 
 namespace tvg::fuzz {
 
-/// Ends the run at a broken promise, and says which.
-inline void require(bool condition, std::source_location place = std::source_location::current()) {
+/// Ends the run at a broken promise, and says which. (clang 14 has no std::source_location.)
+inline void require(bool condition, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
   if (condition) return;
-  std::fprintf(stderr, "%s:%u: a promise is broken\n", place.file_name(), unsigned{place.line()});
+  std::fprintf(stderr, "%s:%d: a promise is broken\n", file, line);
   __builtin_trap();
 }
 
