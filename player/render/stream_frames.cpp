@@ -37,7 +37,7 @@ class StreamFrames final : public ShownFrames {
 
   bool rewind() override {
     if (!reader_->size()) return false;
-    told_ = told_ || lost_end_ > 0;
+    told_ = told_ || ended_ || lost_end_ > 0;
     open();
     return true;
   }
@@ -107,7 +107,7 @@ class StreamFrames final : public ShownFrames {
         break;
       case Decoder::Event::kError:
         if (!spec_.conceal || !held_.mesh) throw tool_error(reader_->name(), decoder.error());
-        fmt::print(stderr, "tvg: {}: {}\n", reader_->name(), decoder.error().describe());
+        if (!told_) fmt::print(stderr, "tvg: {}: {}\n", reader_->name(), decoder.error().describe());
         ended_ = true;
         break;
       case Decoder::Event::kEnd:

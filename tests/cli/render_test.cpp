@@ -132,6 +132,15 @@ TEST_F(Render, StopsAtDamageUnlessToldToConcealIt) {
   EXPECT_EQ(picture("a_09.png").pixels, picture("a_08.png").pixels);
 }
 
+TEST_F(Render, SaysOnceWhatIsMissing) {
+  const std::string stream = folder_.read("hand.tvg");
+  folder_.write("cut.tvg", stream.substr(0, stream.size() / 2));
+  const std::string err = good("tvg render cut.tvg -o cut.png --size 64x48 -q --conceal").err;
+  const std::string what = "the stream ends before it is complete";
+  ASSERT_NE(err.find(what), std::string::npos) << err;
+  EXPECT_EQ(err.find(what), err.rfind(what)) << err;
+}
+
 TEST_F(Render, WritesAClip) {
   if (run("command -v ffmpeg && command -v ffprobe").status != 0) GTEST_SKIP() << "no ffmpeg here";
   good("tvg render hand.tvg -o clip.mp4 --frames 2-9 --size 64x48 --fps 24 -q");
