@@ -59,14 +59,13 @@ std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
   return curvature;
 }
 
-std::vector<double> change_and_mean(const CriterionInput& input, const FrameCurvature& curvature_of) {
+std::vector<double> change_and_mean(const CriterionInput& input,
+                                    std::span<const std::vector<double>> curvature) {
   const std::size_t vertex_count = input.mesh.vertex_count;
-  const auto frame_count = static_cast<double>(input.frames.size());
-  std::vector<std::vector<double>> curvature;  // [frame][vertex]
+  const auto frame_count = static_cast<double>(curvature.size());
   std::vector<double> mean(vertex_count, 0.0);
-  for (const FramePositions& frame : input.frames) {
-    curvature.push_back(curvature_of(frame));
-    for (std::size_t v = 0; v < vertex_count; ++v) mean[v] += curvature.back()[v] / frame_count;
+  for (const std::vector<double>& frame : curvature) {
+    for (std::size_t v = 0; v < vertex_count; ++v) mean[v] += frame[v] / frame_count;
   }
   std::vector<double> deviation(vertex_count, 0.0);
   for (const std::vector<double>& frame : curvature) {
@@ -82,8 +81,11 @@ std::vector<double> change_and_mean(const CriterionInput& input, const FrameCurv
 
 std::vector<double> curvature_criterion(const CriterionInput& input) {
   const OneRings rings(input.mesh);
-  return change_and_mean(
-      input, [&](const FramePositions& frame) { return vertex_curvature(input.mesh, rings, frame); });
+  std::vector<std::vector<double>> curvature;
+  for (const FramePositions& frame : input.frames) {
+    curvature.push_back(vertex_curvature(input.mesh, rings, frame));
+  }
+  return change_and_mean(input, curvature);
 }
 
 }  // namespace tvg

@@ -1,7 +1,6 @@
 #pragma once
 #include "measure/criterion.hpp"
 
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -27,11 +26,10 @@ class OneRings {
 std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
                                      std::span<const float> positions);
 
-/// A curvature at every vertex of a frame, [vertex].
-using FrameCurvature = std::function<std::vector<double>(const FramePositions&)>;
-
-/// Eq. 3 of any curvature: alpha * mean absolute deviation + (1 - alpha) * mean, over the frames.
-std::vector<double> change_and_mean(const CriterionInput& input, const FrameCurvature& curvature_of);
+/// Eq. 3 of any curvature, [frame][vertex]: alpha * mean absolute deviation + (1 - alpha) * mean, over the
+/// frames.
+std::vector<double> change_and_mean(const CriterionInput& input,
+                                    std::span<const std::vector<double>> curvature);
 
 /// CURV: Eq. 3 of Eq. 1.
 std::vector<double> curvature_criterion(const CriterionInput& input);

@@ -1,23 +1,30 @@
 #include "measure/frames_diagonal.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <Eigen/Core>
 #include <limits>
 
 namespace tvg {
 
 double frames_diagonal(std::span<const FramePositions> frames) {
-  std::array<double, 3> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
+  // Four vertices side by side fill whole vectors of the processor.
+  using Block = Eigen::Array<float, 12, 1>;
+  Block low = Block::Constant(std::numeric_limits<float>::infinity()), high = -low;
   for (const FramePositions& frame : frames) {
-    for (std::size_t i = 0; i < frame.size(); ++i) {
-      low[i % 3] = std::min(low[i % 3], double{frame[i]});
-      high[i % 3] = std::max(high[i % 3], double{frame[i]});
+    const std::size_t whole = frame.size() / 12 * 12;
+    for (std::size_t i = 0; i < whole; i += 12) {
+      const Eigen::Map<const Block> block(frame.data() + i);
+      low = block.min(low);
+      high = block.max(high);
+    }
+    for (std::size_t i = whole; i < frame.size(); ++i) {
+      const auto axis = static_cast<Eigen::Index>(i % 3);
+      low[axis] = std::min(low[axis], frame[i]);
+      high[axis] = std::max(high[axis], frame[i]);
     }
   }
-  return high[0] < low[0] ? 0 : std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  const auto of_axes = [](const Block& block) { return block.cast<double>().reshaped(3, 4).eval(); };
+  const Eigen::Vector3d extent = of_axes(high).rowwise().maxCoeff() - of_axes(low).rowwise().minCoeff();
+  return extent[0] < 0 ? 0 : extent.stableNorm();
 }
 
 }  // namespace tvg

@@ -1,7 +1,11 @@
 #include "measure/curvature_norm.hpp"
 
+#include "measure/frames_diagonal.hpp"
+#include "measure/lanes.hpp"
 #include "measure_toolbox.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -22,6 +26,96 @@ Sequence tube(double r) {
     const double angle = 2 * pi * column / 48;
     return std::array{r * std::cos(angle), r * std::sin(angle), 0.13 * r * row};
   });
+}
+
+/// The definition word by word, for meshes whose vertices have closed fans but for the first and last row's.
+std::vector<double> plain_norm(const Mesh& mesh, const FramePositions& positions, std::uint32_t row) {
+  const auto at = [&positions](std::uint32_t v) {
+    return Eigen::Map<const Eigen::Vector3f>(positions.data() + 3 * std::size_t{v}).cast<double>().eval();
+  };
+  std::vector<double> norm(mesh.vertex_count, 0.0);
+  for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    Eigen::Vector3d laplace(0, 0, 0), normal(0, 0, 0);
+    double area = 0, angle = 0;
+    for (const Face& face : mesh.faces) {
+      const auto corner = std::find(face.begin(), face.end(), v) - face.begin();
+      if (corner == 3) continue;
+      const Eigen::Vector3d a = at(v), b = at(face[(corner + 1) % 3]), c = at(face[(corner + 2) % 3]);
+      const double twice_area = (b - a).cross(c - a).norm();
+      if (twice_area == 0) continue;
+      const double cot_a = (b - a).dot(c - a) / twice_area, cot_b = (a - b).dot(c - b) / twice_area,
+                   cot_c = (a - c).dot(b - c) / twice_area;
+      laplace += cot_c * (a - b) + cot_b * (a - c);
+      normal += (b - a).cross(c - a);
+      angle += std::atan2(1, cot_a);
+      const bool obtuse = std::min({cot_a, cot_b, cot_c}) < 0;
+      area += obtuse ? twice_area / (cot_a < 0 ? 4 : 8)
+                     : (cot_c * (a - b).squaredNorm() + cot_b * (a - c).squaredNorm()) / 8;
+    }
+    if (area == 0) continue;
+    if (v < row || v >= mesh.vertex_count - row) {
+      norm[v] = std::abs(laplace.dot(normal)) / (2 * area * normal.norm());
+    } else {
+      const double mean = laplace.norm() / (4 * area);
+      norm[v] = std::sqrt(4 * mean * mean - 2 * std::min((2 * pi - angle) / area, mean * mean));
+    }
+  }
+  return norm;
+}
+
+/// A tube with dents, more obtuse and thinner faces than not, other in each frame.
+Sequence dented_tube(std::size_t frames) {
+  Sequence sequence = tube(1);
+  std::uint32_t random = 1;
+  const FramePositions round = sequence.frames[0];
+  sequence.frames.resize(frames, round);
+  for (FramePositions& frame : sequence.frames) {
+    for (float& x : frame) {
+      random = random * 1664525U + 1013904223U;
+      x += 0.1F * static_cast<float>(random >> 8U) / 16777216.0F;
+    }
+  }
+  return sequence;
+}
+
+TEST(CurvatureNorm, IsItsDefinition) {
+  const Sequence sequence = dented_tube(1);
+  const std::vector<double> norm = norm_of(sequence),
+                            plain = plain_norm(sequence.mesh, sequence.frames[0], 48);
+  for (std::size_t v = 0; v < norm.size(); ++v) ASSERT_NEAR(norm[v], plain[v], 1e-9 * plain[v]) << v;
+}
+
+TEST(CurvatureNorm, OfAFrameDoesNotDependOnThoseBesideIt) {
+  // An odd number of frames, and in the second a face without area, which others are computed along with.
+  Sequence sequence = dented_tube(5);
+  const auto& [a, b, c] = sequence.mesh.faces[300];
+  for (const std::uint32_t v : {b, c}) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sequence.frames[1][3 * std::size_t{v} + axis] = sequence.frames[1][3 * std::size_t{a} + axis];
+    }
+  }
+  std::vector<double> mean(sequence.mesh.vertex_count, 0.0);
+  for (const FramePositions& frame : sequence.frames) {
+    const std::vector<double> plain = plain_norm(sequence.mesh, frame, 48);
+    for (std::size_t v = 0; v < mean.size(); ++v) {
+      mean[v] += plain[v] * frames_diagonal(sequence.frames) / 5;
+    }
+  }
+  Importance options;
+  options.alpha = 0;
+  const auto value = test::evaluate("curvature-norm", sequence.mesh, sequence.frames, options);
+  for (std::size_t v = 0; v < mean.size(); ++v) ASSERT_NEAR(value[v], mean[v], 1e-9 * mean[v]) << v;
+}
+
+TEST(Lanes, AnglesAreThoseOfTheArcTangent) {
+  for (int degree = 0; degree <= 18000; ++degree) {
+    for (const double length : {1e-60, 1.0, 1e60}) {
+      const double angle = degree * pi / 18000, x = length * std::cos(angle),
+                   y = length * std::max(std::sin(angle), 1e-20);
+      const Lanes lanes = Lanes::Constant(x);
+      ASSERT_NEAR(angle_to(lanes, sign_of(lanes), Lanes::Constant(y))[0], std::atan2(y, x), 1e-15) << degree;
+    }
+  }
 }
 
 TEST(CurvatureNorm, OfASphereIsTheRootOfTwoOverItsRadius) {
