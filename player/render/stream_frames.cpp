@@ -107,7 +107,7 @@ class StreamFrames final : public ShownFrames {
         break;
       case Decoder::Event::kError:
         if (!spec_.conceal || !held_.mesh) throw tool_error(reader_->name(), decoder.error());
-        if (!told_) fmt::print(stderr, "tvg: {}: {}\n", reader_->name(), decoder.error().describe());
+        tell(decoder.error(), "");
         ended_ = true;
         break;
       case Decoder::Event::kEnd:
@@ -138,6 +138,14 @@ class StreamFrames final : public ShownFrames {
     importance_values(flags_, loaded_frame_.values);
   }
 
+  /// Tells the user once what is wrong: a stream that is cut reports its end as the cause of the loss, too.
+  void tell(const Error& error, const std::string& where) {
+    const bool same =
+        told_error_ && told_error_->code == error.code && told_error_->byte_offset == error.byte_offset;
+    told_error_ = error;
+    if (!told_ && !same) fmt::print(stderr, "tvg: {}: {}{}\n", reader_->name(), where, error.describe());
+  }
+
   void lose(const Damage& damage) {
     const std::uint64_t end = damage.first_frame + std::min(damage.frame_count, kMostLost + 1);
     const bool of_use = !spec_.frames || (end > number_ && damage.first_frame <= spec_.frames->last);
@@ -149,7 +157,7 @@ class StreamFrames final : public ShownFrames {
       throw ToolError(ExitStatus::kInvalidInput, text + " (--conceal holds the last good frame instead)");
     }
     if (damage.frame_count > kMostLost) throw ToolError(ExitStatus::kInvalidInput, text);
-    if (!told_) fmt::print(stderr, "tvg: {}\n", text);
+    tell(damage.error, where);
     lost_end_ = std::max(lost_end_, end);
   }
 
@@ -162,9 +170,10 @@ class StreamFrames final : public ShownFrames {
   ShownFrame held_;          // the last good one given out
   bool loaded_ = false;
   bool ended_ = false;
-  bool told_ = false;           // whether the user has heard of the damage, in an earlier pass
-  std::uint64_t number_ = 0;    // of the next frame to give out
-  std::uint64_t lost_end_ = 0;  // one past the last frame lost
+  bool told_ = false;                // whether the user has heard of the damage, in an earlier pass
+  std::optional<Error> told_error_;  // the last that was told
+  std::uint64_t number_ = 0;         // of the next frame to give out
+  std::uint64_t lost_end_ = 0;       // one past the last frame lost
   std::uint64_t gop_ = 0;
   std::uint64_t gop_end_ = 0;
 };
