@@ -23,8 +23,8 @@ struct InputArguments {
 };
 
 /// Declares the inputs, --frames, --clip, --mesh and --skeleton; `arguments` must outlive the parsing. --fps
-/// is left to the command: what it means differs.
-void add_input_options(CLI::App& command, InputArguments& arguments);
+/// is left to the command: what it means differs. `others`: what the command takes beside these inputs.
+void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others = "");
 
 struct OpenedInput : OpenedSource {
   std::uint64_t first_frame = 0;  ///< of --frames

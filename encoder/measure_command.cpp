@@ -203,7 +203,7 @@ class MeasureJob {
 void add_measure_command(CLI::App& tool) {
   auto arguments = std::make_shared<MeasureCommandArguments>();
   CLI::App& command = *tool.add_subcommand("measure", "Show which vertices matter to an animation, and why");
-  add_input_options(command, arguments->input);
+  add_input_options(command, arguments->input, ", or a .tvg");
   command.add_option("--fps", arguments->input.fps,
                      "frames per second at which a scene is sampled (default 30)");
   command.add_option("--gop", arguments->gop, "frames that are measured together, as encode does")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -24,7 +25,7 @@ std::string bars(const std::vector<std::uint64_t>& counts) {
   const std::uint64_t fullest = *std::max_element(counts.begin(), counts.end());
   std::string text;
   for (const std::uint64_t count : counts) {
-    const auto height = static_cast<std::size_t>(share_of(count, fullest) * (kBars.size() - 1) + 0.5);
+    const auto height = static_cast<std::size_t>(std::lround(share_of(count, fullest) * (kBars.size() - 1)));
     text += count > 0 ? kBars[height] : " ";
   }
   return text;

@@ -55,18 +55,19 @@ EIGEN_ALWAYS_INLINE Lanes sign_of(const Lanes& x) {
 /// `x_sign` is that of x.
 EIGEN_ALWAYS_INLINE Lanes angle_to(const Lanes& x, const Lanes& x_sign, const Lanes& y) {
   using std::numbers::pi;
-  // atan w = w p(w^2), where p interpolates at Chebyshev nodes for |w| <= tan(pi / 8), off by 4e-17 at most.
-  static constexpr std::array p = {Same(1.0),
-                                   Same(-0.3333333333332844),
-                                   Same(0.1999999999885511),
-                                   Same(-0.14285714180976467),
-                                   Same(0.11111106180455946),
-                                   Same(-0.09090773074808414),
-                                   Same(0.07689953496306857),
-                                   Same(-0.06640233930429408),
-                                   Same(0.056883492268090106),
-                                   Same(-0.04348052215716462),
-                                   Same(0.021135373157693246)};
+  // atan w = w p(w^2), where p, of these terms, interpolates at Chebyshev nodes for |w| <= tan(pi / 8), off
+  // by 4e-17 at most.
+  static constexpr std::array kTerms = {Same(1.0),
+                                        Same(-0.3333333333332844),
+                                        Same(0.1999999999885511),
+                                        Same(-0.14285714180976467),
+                                        Same(0.11111106180455946),
+                                        Same(-0.09090773074808414),
+                                        Same(0.07689953496306857),
+                                        Same(-0.06640233930429408),
+                                        Same(0.056883492268090106),
+                                        Same(-0.04348052215716462),
+                                        Same(0.021135373157693246)};
   static constexpr Same kTan(std::numbers::sqrt2 - 1), kEighth(pi / 8), kQuarter(pi / 4), kHalf(pi / 2);
   // The smaller of |x| and y over the larger is the tangent of pi / 8 + atan w.
   const Lanes width = x * x_sign;
@@ -74,9 +75,9 @@ EIGEN_ALWAYS_INLINE Lanes angle_to(const Lanes& x, const Lanes& x_sign, const La
   const Lanes w = (low - high * kTan()) / (low * kTan() + high);
   const Lanes z = w * w, z2 = z * z, z4 = z2 * z2;
   // Pairs of coefficients first (Estrin's scheme): fewer products wait for one another.
-  const Lanes p0 = (z * p[1]() + p[0]()) + (z * p[3]() + p[2]()) * z2;
-  const Lanes p4 = (z * p[5]() + p[4]()) + (z * p[7]() + p[6]()) * z2;
-  const Lanes p8 = (z * p[9]() + p[8]()) + z2 * p[10]();
+  const Lanes p0 = (z * kTerms[1]() + kTerms[0]()) + (z * kTerms[3]() + kTerms[2]()) * z2;
+  const Lanes p4 = (z * kTerms[5]() + kTerms[4]()) + (z * kTerms[7]() + kTerms[6]()) * z2;
+  const Lanes p8 = (z * kTerms[9]() + kTerms[8]()) + z2 * kTerms[10]();
   const Lanes to_diagonal = kEighth() - w * (p0 + (p4 + p8 * z4) * z4);
   return kHalf() - x_sign * (kQuarter() + sign_of(width - y) * to_diagonal);
 }
