@@ -30,9 +30,6 @@ struct CompareArguments {
   bool quiet = false;
 };
 
-bool is_stream(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".tvg";
-}
 bool is_cache(const std::string& path) {
   const std::string suffix = std::filesystem::path(path).extension().string();
   return suffix == ".pc2" || suffix == ".mdd";
@@ -48,7 +45,7 @@ std::string rate_of(const FrameSource& other) {
 /// A stream, a cache with the mesh file named by --mesh, a sequence of mesh files, or a scene.
 std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArguments& arguments,
                                        const std::string& fps) {
-  if (is_stream(path)) return std::make_unique<StreamSource>(path);
+  if (is_stream_file(path)) return std::make_unique<StreamSource>(path);
   std::string mesh;
   SourceSpec spec{{path}};
   for (const std::string& name : arguments.meshes) {
@@ -72,9 +69,9 @@ std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArg
   return open_source(spec).source;
 }
 
-Result<bool> read(FrameSource& source, FramePositions& frame, const std::string& path) {
+Result<bool> read(FrameSource& source, FramePositions& frame) {
   const Result<bool> read = source.read_frame(frame);
-  if (!read) throw is_stream(path) ? tool_error(path, read.error()) : tool_error(read.error());
+  if (!read) throw tool_error(read.error());
   return read;
 }
 
@@ -95,8 +92,8 @@ ComparisonReport compare(const CompareArguments& arguments) {
   FramePositions b(a.size());
   ProgressBar bar("comparing", arguments.quiet);
   for (std::uint64_t frame = 0;; ++frame) {
-    const bool more_a = *read(*original, a, arguments.original);
-    const bool more_b = *read(*decoded, b, arguments.decoded);
+    const bool more_a = *read(*original, a);
+    const bool more_b = *read(*decoded, b);
     if (more_a != more_b) {
       throw ToolError(
           ExitStatus::kInvalidInput,

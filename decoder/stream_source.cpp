@@ -1,8 +1,13 @@
 #include "decoder/stream_source.hpp"
 
+#include "cli/mesh_format.hpp"
 #include "cli/tool_error.hpp"
 
 namespace tvg::cli {
+
+bool is_stream_file(const std::string& path) {
+  return has_suffix(path, ".tvg");
+}
 
 StreamSource::StreamSource(const std::string& path) : path_(path) {
   open();
@@ -32,6 +37,11 @@ void StreamSource::open() {
   }
 }
 
+Error StreamSource::named(Error error) const {
+  error.message = path_ + ": " + error.message;
+  return error;
+}
+
 Result<bool> StreamSource::read_frame(std::span<float> positions) {
   for (;;) {
     const Decoder& decoder = reader_->decoder();
@@ -42,12 +52,15 @@ Result<bool> StreamSource::read_frame(std::span<float> positions) {
       case Decoder::Event::kEnd:
         return false;
       case Decoder::Event::kError:
-        return decoder.error();
+        return named(decoder.error());
       case Decoder::Event::kDamage:
-        return decoder.damage().error;
+        return named(decoder.damage().error);
       case Decoder::Event::kMesh:
-        return Error{
-            ErrorCode::kInvalidInput, "the stream goes on with another mesh: compare its parts", {}, {}, ""};
+        return named({ErrorCode::kInvalidInput,
+                      "the stream goes on with another mesh: take its parts one by one",
+                      {},
+                      {},
+                      ""});
       default:
         break;
     }

@@ -8,7 +8,11 @@
 
 namespace tvg::cli {
 
-/// The frames of a .tvg as a source. A damaged stream, or one with more than one mesh, yields an error.
+/// Whether a path names a .tvg.
+bool is_stream_file(const std::string& path);
+
+/// The frames of a .tvg as a source. A damaged stream, or one with more than one mesh, yields an error, whose
+/// message names the file.
 class StreamSource final : public FrameSource {
  public:
   /// Reads up to the mesh. Throws ToolError when the stream cannot be opened or has no mesh.
@@ -22,6 +26,7 @@ class StreamSource final : public FrameSource {
 
  private:
   void open();
+  Error named(Error error) const;
 
   std::string path_;
   std::unique_ptr<StreamReader> reader_;

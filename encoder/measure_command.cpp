@@ -6,6 +6,7 @@
 #include "cli/tool_error.hpp"
 #include "decoder/exporters/measured_frame.hpp"
 #include "decoder/stream_source.hpp"
+#include "encoder/importers/skeleton_file.hpp"
 #include "encoder/input_options.hpp"
 #include "encoder/measure_options.hpp"
 #include "encoder/measure_report.hpp"
@@ -48,18 +49,12 @@ struct MeasureCommandArguments {
   }
 };
 
-bool is_stream(const MeasureCommandArguments& arguments) {
-  return arguments.input.inputs.size() == 1 && has_suffix(arguments.input.inputs.front(), ".tvg");
-}
-
-/// The inputs, or a .tvg.
-OpenedInput open(const MeasureCommandArguments& arguments) {
-  const InputArguments& input = arguments.input;
-  if (!is_stream(arguments)) return open_input(input, false);
+/// The inputs, or a .tvg with the joints of --skeleton.
+OpenedInput open(const InputArguments& input) {
+  if (input.inputs.size() != 1 || !is_stream_file(input.inputs.front())) return open_input(input, false);
   for (const auto& [option, given] :
        {std::pair("--frames", !input.frames.empty()), std::pair("--clip", !input.clip.empty()),
-        std::pair("--mesh", !input.meshes.empty()), std::pair("--fps", !input.fps.empty()),
-        std::pair("--skeleton", !input.skeleton.empty())}) {
+        std::pair("--mesh", !input.meshes.empty()), std::pair("--fps", !input.fps.empty())}) {
     if (given) {
       throw ToolError(ExitStatus::kUsage,
                       fmt::format("{}: not for a .tvg, whose frames are measured as they are", option));
@@ -67,6 +62,12 @@ OpenedInput open(const MeasureCommandArguments& arguments) {
   }
   OpenedInput opened;
   opened.source = std::make_unique<StreamSource>(input.inputs.front());
+  if (input.skeleton.empty()) return opened;
+  if (has_suffix(input.skeleton, ".bvh")) {
+    fail_option("--skeleton", input.skeleton, "a .tvg takes its joints from JSON");
+  }
+  opened.source =
+      with_joints(std::move(opened.source), read_skeleton_file(input.skeleton), input.skeleton, 0);
   return opened;
 }
 
@@ -82,7 +83,7 @@ class MeasureJob {
 #endif
         bar_("measuring", arguments.quiet) {
     check_outputs();
-    opened_ = open(arguments);
+    opened_ = open(arguments.input);
     check_measure(arguments.measure, importance_, *opened_.source, arguments.input.inputs);
     if (!arguments.quiet) print_notes(opened_);
     choose_frame();
@@ -99,10 +100,7 @@ class MeasureJob {
       bar_.update(gop.first_frame + gop.frames.size(), opened_.source->frame_count());
       return Status();
     });
-    if (source.error()) {  // those of files name them, that of a stream does not
-      throw is_stream(arguments_) ? tool_error(arguments_.input.inputs.front(), *source.error())
-                                  : tool_error(*source.error());
-    }
+    if (source.error()) throw tool_error(*source.error());
     if (!status.ok()) throw tool_error(input_names(arguments_.input), status.error());
     bar_.clear();
     if (shown_frame_ && !shown_) throw no_such_frame(report);
@@ -164,20 +162,22 @@ class MeasureJob {
   void show(const GopMeasure& gop) {
     const std::uint64_t first = opened_.first_frame + gop.first_frame;
     if (pattern_) {
+      const VertexAttributes attributes = ply_attributes(gop.measure, colour());
       for (std::size_t i = 0; i < gop.frames.size(); ++i) {
-        write_measured_ply(pattern_->path(first + i), opened_.source->mesh(), measured_frame(gop, i, first),
-                           colour());
+        write_coloured_ply(pattern_->path(first + i), opened_.source->mesh(), gop.frames[i], attributes);
       }
     }
     if (!shown_frame_ || *shown_frame_ < first || *shown_frame_ >= first + gop.frames.size()) return;
     shown_ = true;
-    const MeasuredFrame frame = measured_frame(gop, static_cast<std::size_t>(*shown_frame_ - first), first);
+    const auto index = static_cast<std::size_t>(*shown_frame_ - first);
     if (!arguments_.ply.empty() && !pattern_) {
-      write_measured_ply(arguments_.ply, opened_.source->mesh(), frame, colour());
+      write_coloured_ply(arguments_.ply, opened_.source->mesh(), gop.frames[index],
+                         ply_attributes(gop.measure, colour()));
     }
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty()) {
-      draw_measure_picture(arguments_.picture, *opened_.source, frame, arguments_.measure.criteria, look_);
+      draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
+                           arguments_.measure.criteria, look_);
     }
 #endif
   }

@@ -1,8 +1,5 @@
 #include "decoder/exporters/measured_frame.hpp"
 
-#include "cli/atomic_file.hpp"
-#include "decoder/exporters/mesh_writers.hpp"
-
 #include <algorithm>
 
 namespace tvg::cli {
@@ -40,17 +37,12 @@ ValueRange cost_range(const std::vector<float>& cost) {
   return range;
 }
 
-void write_measured_ply(const std::string& path, const Mesh& mesh, const MeasuredFrame& frame,
-                        MeasureColour colour) {
-  const std::vector<float> important(frame.flags.begin(), frame.flags.end());
-  VertexAttributes attributes;
-  attributes.colours = colour == MeasureColour::kFlags
-                           ? colours_of(important, {0, 1}, ColourMap::kFlags)
-                           : colours_of(frame.cost, cost_range(frame.cost), ColourMap::kViridis);
-  attributes.named = {{"cost", frame.cost}, {"important", important}};
-  AtomicFile file(path);
-  write_coloured_ply(file, mesh, frame.positions, attributes);
-  file.finish();
+VertexAttributes ply_attributes(const Measure& measure, MeasureColour colour) {
+  const std::vector<float> cost(measure.cost.begin(), measure.cost.end());
+  const std::vector<float> important(measure.flags.begin(), measure.flags.end());
+  return {colour == MeasureColour::kFlags ? colours_of(important, {0, 1}, ColourMap::kFlags)
+                                          : colours_of(cost, cost_range(cost), ColourMap::kViridis),
+          {{"cost", cost}, {"important", important}}};
 }
 
 }  // namespace tvg::cli

@@ -1,5 +1,6 @@
 #pragma once
 #include "cli/colour_map.hpp"
+#include "decoder/exporters/mesh_writers.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -30,9 +31,8 @@ ValueRange cost_range(const std::vector<float>& cost);
 /// What colours a PLY.
 enum class MeasureColour { kCost, kFlags };
 
-/// Writes the frame as a PLY whose vertices carry a colour, and the properties `cost` and `important` (1 or
-/// 0). Throws ToolError (kIo).
-void write_measured_ply(const std::string& path, const Mesh& mesh, const MeasuredFrame& frame,
-                        MeasureColour colour);
+/// What a PLY says of the vertices in any frame of a GOP: a colour, and the properties `cost` and `important`
+/// (1 or 0).
+VertexAttributes ply_attributes(const Measure& measure, MeasureColour colour);
 
 }  // namespace tvg::cli

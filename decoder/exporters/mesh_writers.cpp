@@ -167,9 +167,11 @@ void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span
   }
 }
 
-void write_coloured_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
+void write_coloured_ply(const std::string& path, const Mesh& mesh, std::span<const float> positions,
                         const VertexAttributes& attributes) {
+  AtomicFile file(path);
   write_ply(file, mesh, positions, attributes);
+  file.finish();
 }
 
 }  // namespace tvg::cli

@@ -27,9 +27,9 @@ struct VertexAttributes {
   std::vector<std::pair<std::string, std::vector<float>>> named;  ///< name of the property, values [vertex]
 };
 
-/// write_mesh() for PLY, with attributes of the vertices: colours as `red`, `green`, `blue` (uchar, sRGB), as
-/// viewers know them, and each of `named` as a float.
-void write_coloured_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
+/// Writes a PLY file with attributes of the vertices: colours as `red`, `green`, `blue` (uchar, sRGB), as
+/// viewers know them, and each of `named` as a float. Throws ToolError (kIo).
+void write_coloured_ply(const std::string& path, const Mesh& mesh, std::span<const float> positions,
                         const VertexAttributes& attributes);
 
 }  // namespace tvg::cli

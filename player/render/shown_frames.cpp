@@ -1,12 +1,12 @@
 #include "player/render/shown_frames.hpp"
 
-#include "cli/mesh_format.hpp"
 #include "cli/tool_error.hpp"
+#include "decoder/stream_source.hpp"
 
 namespace tvg::cli {
 
 bool is_stream(const std::vector<std::string>& inputs) {
-  return inputs.size() == 1 && (inputs[0] == "-" || has_suffix(inputs[0], ".tvg"));
+  return inputs.size() == 1 && (inputs[0] == "-" || is_stream_file(inputs[0]));
 }
 
 std::unique_ptr<ShownFrames> open_frames(const ShownFramesSpec& spec) {

@@ -24,6 +24,14 @@ void attach_shader(GLuint program, GLenum stage, const std::string& text) {
   throw ToolError(ExitStatus::kOther, std::string("the OpenGL driver refuses a shader: ") + log.data());
 }
 
+/// One object of a kind, by the function of OpenGL that makes some.
+template <class Object>
+Object generated(void (*generate)(GLsizei, GLuint*)) {
+  GLuint name = 0;
+  generate(1, &name);
+  return Object(name);
+}
+
 }  // namespace
 
 void release_buffer(GLuint name) {
@@ -46,29 +54,19 @@ void release_program(GLuint name) {
 }
 
 GlBuffer make_buffer() {
-  GLuint name = 0;
-  glGenBuffers(1, &name);
-  return GlBuffer(name);
+  return generated<GlBuffer>(glGenBuffers);
 }
 GlVertexArray make_vertex_array() {
-  GLuint name = 0;
-  glGenVertexArrays(1, &name);
-  return GlVertexArray(name);
+  return generated<GlVertexArray>(glGenVertexArrays);
 }
 GlTexture make_texture() {
-  GLuint name = 0;
-  glGenTextures(1, &name);
-  return GlTexture(name);
+  return generated<GlTexture>(glGenTextures);
 }
 GlRenderbuffer make_renderbuffer() {
-  GLuint name = 0;
-  glGenRenderbuffers(1, &name);
-  return GlRenderbuffer(name);
+  return generated<GlRenderbuffer>(glGenRenderbuffers);
 }
 GlFramebuffer make_framebuffer() {
-  GLuint name = 0;
-  glGenFramebuffers(1, &name);
-  return GlFramebuffer(name);
+  return generated<GlFramebuffer>(glGenFramebuffers);
 }
 
 GlProgram make_program(const ShaderText& text) {

@@ -150,6 +150,9 @@ TEST_F(MeasureCommand, ReadsStreamsAndPipes) {
   good("tvg encode hand.obj hand.pc2 -o hand.tvg --bits 16 -q");
   EXPECT_EQ(json("tvg measure hand.tvg --gop 5 --json -q")["gops"].size(), 3u);
   expect_failure("tvg measure hand.tvg --frames 0-3", 1, "--frames: not for a .tvg");
+  const auto joints = json("tvg measure hand.tvg --measure skel --skeleton hand.skeleton.json --json -q");
+  EXPECT_EQ(joints["gops"][0]["joints"].size(), joints["skeleton"].size());
+  expect_failure("tvg measure hand.tvg --measure skel --skeleton a.bvh", 1, "from JSON");
   EXPECT_EQ(json("cat hand.pc2 | tvg measure hand.obj - --gop 5 --json -q")["frames"], kFrames);
   flip_byte("hand.tvg", folder_.read("hand.tvg").size() / 2);
   expect_failure("tvg measure hand.tvg", 3, "hand.tvg");

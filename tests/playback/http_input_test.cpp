@@ -201,6 +201,22 @@ TEST(HttpInput, ALengthThatIsNotKeptEndsInAnErrorAfterBoundedAttempts) {
   EXPECT_LE(server.requests().size(), 10u);
 }
 
+TEST(HttpInput, FollowsFiveRedirectsAndNoMoreAndNoneToAFile) {
+  StreamServer server(long_stream(), {});
+  HttpInput led(server.url("/redirected/5"), patient());
+  const Result<Stream> bytes = read_all(led);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_EQ(*bytes, long_stream());
+  const std::size_t requests = server.requests().size();
+  for (const char* path : {"/redirected/6", "/to-a-file"}) {
+    HttpInput misled(server.url(path), hasty());
+    const Result<Stream> nothing = read_all(misled);
+    ASSERT_FALSE(nothing) << path;
+    EXPECT_FALSE(nothing.error().message.empty());
+  }
+  EXPECT_EQ(server.requests().size(), requests) << "the stream was not reached";
+}
+
 TEST(HttpInput, AServerThatHangsIsGivenUpAfterBoundedAttempts) {
   StreamServer::Behaviour behaviour;
   behaviour.hang_after = 0;

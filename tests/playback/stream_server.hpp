@@ -35,6 +35,13 @@ class StreamServer {
     server_.Get("/clip.tvg", [this](const httplib::Request& request, httplib::Response& response) {
       answer(request, response);
     });
+    server_.Get(R"(/redirected/(\d+))", [](const httplib::Request& request, httplib::Response& response) {
+      const int more = std::stoi(request.matches[1].str()) - 1;
+      response.set_redirect(more > 0 ? "/redirected/" + std::to_string(more) : "/clip.tvg");
+    });
+    server_.Get("/to-a-file", [](const httplib::Request&, httplib::Response& response) {
+      response.set_redirect("file:///etc/passwd");
+    });
     port_ = server_.bind_to_any_port("127.0.0.1");
     EXPECT_GT(port_, 0);
     thread_ = std::thread([this] { server_.listen_after_bind(); });
@@ -48,7 +55,10 @@ class StreamServer {
   StreamServer(const StreamServer&) = delete;
   StreamServer& operator=(const StreamServer&) = delete;
 
-  std::string url() const { return "http://127.0.0.1:" + std::to_string(port_) + "/clip.tvg"; }
+  /// `/clip.tvg` is the stream, `/redirected/N` leads there over N redirects, `/to-a-file` to a file here.
+  std::string url(const std::string& path = "/clip.tvg") const {
+    return "http://127.0.0.1:" + std::to_string(port_) + path;
+  }
   /// The Range header of each request so far, "" where it had none.
   std::vector<std::string> requests() const {
     const std::lock_guard lock(mutex_);

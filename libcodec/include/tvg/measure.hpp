@@ -105,8 +105,8 @@ struct GopMeasure {
 using GopMeasureSink = std::function<Status(const GopMeasure&)>;
 
 /// Measures a source from its present frame to its end in GOPs of `gop_frames` frames, as encode() cuts them,
-/// and passes each to `sink`, whose error ends it. One GOP is in memory at a time. Fails as encode() does
-/// where the mesh, the frames or the importance are not as they should be.
+/// and passes each to `sink`, whose error ends it. One GOP is in memory at a time, with low_delay two. Fails
+/// as encode() does where the mesh, the frames or the importance are not as they should be.
 Status measure_gops(FrameSource& source, std::uint32_t gop_frames, const Importance& importance,
                     const GopMeasureSink& sink);
 
