@@ -70,7 +70,7 @@ std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArg
 }
 
 Result<bool> read(FrameSource& source, FramePositions& frame) {
-  const Result<bool> read = source.read_frame(frame);
+  Result<bool> read = source.read_frame(frame);
   if (!read) throw tool_error(read.error());
   return read;
 }

@@ -3,13 +3,15 @@
 #include "cli/mesh_format.hpp"
 #include "cli/tool_error.hpp"
 
+#include <utility>
+
 namespace tvg::cli {
 
 bool is_stream_file(const std::string& path) {
   return has_suffix(path, ".tvg");
 }
 
-StreamSource::StreamSource(const std::string& path) : path_(path) {
+StreamSource::StreamSource(std::string path) : path_(std::move(path)) {
   open();
   if (const auto index = reader_->read_index()) {
     frame_count_ = 0;

@@ -16,7 +16,7 @@ bool is_stream_file(const std::string& path);
 class StreamSource final : public FrameSource {
  public:
   /// Reads up to the mesh. Throws ToolError when the stream cannot be opened or has no mesh.
-  explicit StreamSource(const std::string& path);
+  explicit StreamSource(std::string path);
 
   const Mesh& mesh() const override { return mesh_; }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
