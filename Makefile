@@ -2,7 +2,7 @@
 # WERROR=ON makes warnings errors; FUZZ_SECONDS is how long each fuzz target runs; LINT lists folders for clang-tidy.
 WERROR ?= OFF
 FUZZ_SECONDS ?= 60
-LINT ?= libcodec encoder decoder player server cli
+LINT ?= libcodec tool encoder decoder player server cli
 # Folders of tests to run under sanitizers; all where empty.
 SANITIZE ?=
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <tvg/encoder.hpp>
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::bench {
 

@@ -1,6 +1,6 @@
 // Watches a live stream with many viewers at once, each decoding it, and compares what they saw with each
 // other and with the encoder's own output.
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::bench {
 

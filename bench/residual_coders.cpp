@@ -2,7 +2,7 @@
 #include "connectivity/connectivity_encode.hpp"
 #include "corpus/corpus.hpp"
 #include "entropy/range_coder.hpp"
-#include "prediction/frame_coder.hpp"
+#include "planes/frame_coder.hpp"
 #include "quantization/bounding_box.hpp"
 
 #include <array>

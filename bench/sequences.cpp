@@ -1,7 +1,7 @@
 #include "bench/sequences.hpp"
 
-#include "cli/tool_error.hpp"
 #include "encoder/importers/open_source.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <array>

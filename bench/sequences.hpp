@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <tvg/metrics.hpp>
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::bench {
 

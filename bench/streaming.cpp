@@ -1,5 +1,5 @@
-#include "cli/tool_error.hpp"
 #include "player/playback/player.hpp"
+#include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::bench {
 

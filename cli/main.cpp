@@ -1,6 +1,6 @@
-#include "cli/atomic_file.hpp"
 #include "cli/commands.hpp"
-#include "cli/tool_error.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cerrno>

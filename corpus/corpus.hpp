@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 // The project's own animated meshes: made by arithmetic alone, the same bits on every machine
 // (exact_math.hpp).

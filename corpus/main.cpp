@@ -1,6 +1,6 @@
-#include "cli/tool_error.hpp"
 #include "corpus/corpus.hpp"
 #include "corpus/write_cache.hpp"
+#include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <charconv>

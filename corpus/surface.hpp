@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 // Building blocks of the generators: a triangle mesh in binary64 and the shapes it is put together from.
 namespace tvg::corpus {

@@ -1,6 +1,6 @@
 #include "corpus/write_cache.hpp"
 
-#include "cli/atomic_file.hpp"
+#include "tool/atomic_file.hpp"
 
 #include <array>
 #include <bit>

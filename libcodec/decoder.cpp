@@ -1,4 +1,4 @@
-#include "decoder_state.hpp"
+#include "decoder/decoder_state.hpp"
 
 #include <new>
 

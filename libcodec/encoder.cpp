@@ -1,10 +1,10 @@
+#include "connectivity/mesh_coder_encode.hpp"
 #include "container/layout.hpp"
 #include "container/stream_writer.hpp"
-#include "gop_encoder.hpp"
-#include "gop_reader.hpp"
-#include "mesh_encoder.hpp"
+#include "modes/gop_encoder.hpp"
 #include "quantization/bounding_box.hpp"
-#include "source_checks.hpp"
+#include "source/gop_reader.hpp"
+#include "source/source_checks.hpp"
 
 #include <algorithm>
 #include <cmath>

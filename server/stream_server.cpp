@@ -1,10 +1,10 @@
 #include "server/stream_server.hpp"
 
-#include "cli/tool_error.hpp"
 #include "server/file_response.hpp"
 #include "server/http_server.hpp"
 #include "server/listing.hpp"
 #include "server/live_routes.hpp"
+#include "tool/tool_error.hpp"
 
 #include <cerrno>
 #include <filesystem>

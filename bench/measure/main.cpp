@@ -3,10 +3,10 @@
 #include "bench/measure/plot.hpp"
 #include "bench/sequences.hpp"
 #include "bench/timing.hpp"
-#include "cli/atomic_file.hpp"
-#include "cli/option_values.hpp"
+#include "cli/measure_options.hpp"
 #include "corpus/corpus.hpp"
-#include "encoder/measure_options.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/option_values.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 // Where the eye is drawn to: parts of a mesh in which errors are counted on their own. They are found from
 // the original alone, by other means than the measure's.

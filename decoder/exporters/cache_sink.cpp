@@ -1,8 +1,8 @@
 #include "decoder/exporters/cache_sink.hpp"
 
-#include "cli/tool_error.hpp"
 #include "decoder/exporters/bytes.hpp"
 #include "decoder/exporters/mesh_writers.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <charconv>

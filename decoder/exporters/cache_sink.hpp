@@ -1,6 +1,6 @@
 #pragma once
-#include "cli/atomic_file.hpp"
 #include "decoder/exporters/frame_sink.hpp"
+#include "tool/atomic_file.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <tvg/mesh.hpp>
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

@@ -1,7 +1,7 @@
 #include "decoder/exporters/mesh_sequence_sink.hpp"
 
-#include "cli/tool_error.hpp"
 #include "decoder/exporters/mesh_writers.hpp"
+#include "tool/tool_error.hpp"
 
 #include <filesystem>
 

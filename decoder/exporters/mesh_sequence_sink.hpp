@@ -1,8 +1,8 @@
 #pragma once
-#include "cli/atomic_file.hpp"
-#include "cli/frame_pattern.hpp"
-#include "cli/mesh_format.hpp"
 #include "decoder/exporters/frame_sink.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/frame_pattern.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <memory>
 #include <optional>

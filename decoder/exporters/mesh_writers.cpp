@@ -1,7 +1,7 @@
 #include "decoder/exporters/mesh_writers.hpp"
 
-#include "cli/tool_error.hpp"
 #include "decoder/exporters/bytes.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,14 +1,14 @@
 #pragma once
-#include "cli/atomic_file.hpp"
-#include "cli/colour_map.hpp"
-#include "cli/mesh_format.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/colour_map.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

@@ -1,8 +1,8 @@
-#include "cli/mesh_format.hpp"
-#include "cli/tool_error.hpp"
 #include "decoder/exporters/cache_sink.hpp"
 #include "decoder/exporters/frame_sink.hpp"
 #include "decoder/exporters/mesh_sequence_sink.hpp"
+#include "tool/mesh_format.hpp"
+#include "tool/tool_error.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -3,18 +3,9 @@
 #include <memory>
 #include <string>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
-
-/// Frames first to last, both included, counted from 0.
-struct FrameRange {
-  std::uint64_t first = 0;
-  std::uint64_t last = 0;
-};
-
-/// Throws ToolError (kUsage) unless the range lies within `frame_count` frames of `input`.
-void check_frame_range(const FrameRange& range, std::uint64_t frame_count, const std::string& input);
 
 /// A source that can pass over frames without decoding them.
 class SkippableSource : public FrameSource {

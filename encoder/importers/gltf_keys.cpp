@@ -1,8 +1,8 @@
 #include "encoder/importers/gltf_keys.hpp"
 
-#include "cli/mesh_format.hpp"
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/input_file.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
 #pragma once
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <string>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

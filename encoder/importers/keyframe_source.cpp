@@ -1,12 +1,12 @@
 #include "encoder/importers/keyframe_source.hpp"
 
-#include "cli/option_values.hpp"
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_mesh.hpp"
+#include "tool/option_values.hpp"
 
 #include <array>
 #include <bit>

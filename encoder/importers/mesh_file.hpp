@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/mesh_format.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

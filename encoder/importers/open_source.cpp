@@ -1,12 +1,13 @@
 #include "encoder/importers/open_source.hpp"
 
-#include "cli/frame_pattern.hpp"
 #include "encoder/importers/cache_source.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_source.hpp"
 #include "encoder/importers/skeleton_source.hpp"
+#include "tool/frame_pattern.hpp"
+#include "tool/option_values.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 

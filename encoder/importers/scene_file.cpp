@@ -1,9 +1,9 @@
 #include "encoder/importers/scene_file.hpp"
 
-#include "cli/mesh_format.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/trial.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <algorithm>
 #include <array>

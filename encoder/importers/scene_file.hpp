@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 struct aiScene;
 

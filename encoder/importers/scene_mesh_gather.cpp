@@ -1,6 +1,6 @@
-#include "cli/tool_error.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_mesh.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <assimp/scene.h>

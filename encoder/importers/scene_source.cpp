@@ -1,7 +1,5 @@
 #include "encoder/importers/scene_source.hpp"
 
-#include "cli/mesh_format.hpp"
-#include "cli/option_values.hpp"
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/gltf_keys.hpp"
 #include "encoder/importers/keyframe_source.hpp"
@@ -9,6 +7,8 @@
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
 #include "encoder/importers/text_cursor.hpp"
+#include "tool/mesh_format.hpp"
+#include "tool/option_values.hpp"
 
 #include <algorithm>
 #include <assimp/scene.h>

@@ -1,6 +1,6 @@
-#include "cli/frame_pattern.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
+#include "tool/frame_pattern.hpp"
 
 #include <algorithm>
 #include <cctype>

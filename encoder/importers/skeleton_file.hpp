@@ -2,8 +2,8 @@
 #include <memory>
 #include <string>
 
-#include <tvg/sequence.hpp>
 #include <tvg/skeleton.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 

@@ -1,11 +1,11 @@
 #include "encoder/importers/skeleton_source.hpp"
 
-#include "cli/mesh_format.hpp"
-#include "cli/option_values.hpp"
-#include "cli/tool_error.hpp"
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
+#include "tool/mesh_format.hpp"
+#include "tool/option_values.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <assimp/scene.h>

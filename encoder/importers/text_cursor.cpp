@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 

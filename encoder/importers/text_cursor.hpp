@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

@@ -1,10 +1,10 @@
 #include "encoder/importers/vertex_weights.hpp"
 
-#include "cli/mesh_format.hpp"
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/text_cursor.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <algorithm>
 #include <charconv>

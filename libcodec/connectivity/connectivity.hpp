@@ -3,8 +3,7 @@
 #include <span>
 #include <vector>
 
-#include <tvg/error.hpp>
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 

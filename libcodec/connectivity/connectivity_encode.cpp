@@ -1,7 +1,7 @@
 #include "connectivity/connectivity_encode.hpp"
 
-#include "connectivity/half_edges_encode.hpp"
 #include "connectivity/traversal.hpp"
+#include "geometry/half_edges_encode.hpp"
 
 namespace tvg {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 

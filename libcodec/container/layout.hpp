@@ -1,5 +1,5 @@
 #pragma once
-#include "container/byte_io.hpp"
+#include "base/byte_io.hpp"
 
 #include <array>
 #include <cstdint>
@@ -7,9 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <tvg/error.hpp>
-#include <tvg/sequence.hpp>
-#include <tvg/stream.hpp>
+#include <tvg/source.hpp>
+#include <tvg/types.hpp>
 
 // What the structures of a stream look like in bytes (format-spec §3 and §4): the writer and the reader of
 // each stand side by side. Nothing here knows geometry.

@@ -1,6 +1,6 @@
 #include "container/stream_checks.hpp"
 
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 
 #include <optional>
 #include <utility>

@@ -4,8 +4,7 @@
 #include <cstdint>
 
 #include <tvg/decoder.hpp>
-#include <tvg/error.hpp>
-#include <tvg/stream.hpp>
+#include <tvg/types.hpp>
 
 // What can be checked of a stream's chunks without decoding them: for programs that pass chunks on. Errors
 // carry the section and no place; the caller knows that.

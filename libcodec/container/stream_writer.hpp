@@ -5,8 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include <tvg/error.hpp>
-#include <tvg/stream.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 

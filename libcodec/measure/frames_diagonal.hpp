@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg {
 

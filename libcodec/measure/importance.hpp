@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 

@@ -1,5 +1,5 @@
-#include "gop_reader.hpp"
-#include "source_checks.hpp"
+#include "source/gop_reader.hpp"
+#include "source/source_checks.hpp"
 
 #include <new>
 

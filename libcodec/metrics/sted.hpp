@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 // A spatio-temporal edge difference after Vasa and Skala (2011): what the eye sees of an error is not how far
 // a vertex is off, but that neighbours, or one vertex in successive frames, are off by different amounts.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

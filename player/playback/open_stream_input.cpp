@@ -1,8 +1,8 @@
-#include "cli/tool_error.hpp"
 #include "player/playback/file_input.hpp"
 #include "player/playback/http_input.hpp"
 #include "player/playback/pipe_input.hpp"
 #include "player/playback/stream_input.hpp"
+#include "tool/tool_error.hpp"
 
 #include <cerrno>
 #include <cstring>

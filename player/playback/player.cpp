@@ -1,6 +1,6 @@
 #include "player/playback/player.hpp"
 
-#include "cli/option_values.hpp"
+#include "tool/option_values.hpp"
 
 #include <algorithm>
 #include <utility>

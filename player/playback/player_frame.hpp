@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <tvg/decoder.hpp>
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

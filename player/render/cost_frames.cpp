@@ -1,6 +1,6 @@
-#include "cli/tool_error.hpp"
 #include "player/render/shown_frames.hpp"
 #include "player/view/overlay.hpp"
+#include "tool/tool_error.hpp"
 
 #include <fmt/format.h>
 #include <utility>

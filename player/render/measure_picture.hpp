@@ -1,10 +1,10 @@
 #pragma once
-#include "decoder/exporters/measured_frame.hpp"
 #include "player/view/look.hpp"
+#include "tool/measured_frame.hpp"
 
 #include <string>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 

@@ -1,7 +1,7 @@
 #include "player/render/overlay_frames.hpp"
 
-#include "cli/tool_error.hpp"
 #include "player/view/overlay.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -18,11 +18,12 @@ constexpr double kShareBelowCost = 0.95;
 
 OverlayFrames::OverlayFrames(const RenderOptions& options) : options_(options) {
   const bool cost = options.overlay == Overlay::kCost;
-  frames_ = open_frames(
-      {options.inputs, options.frames, options.overlay == Overlay::kImportance, cost, options.conceal});
+  frames_ = open_frames({options.inputs, options.frames, options.overlay == Overlay::kImportance, cost,
+                         options.conceal, options.open_source});
   if (cost) frames_ = with_cost(std::move(frames_), options.frames);
   if (!options.reference.empty()) {
-    references_ = open_frames({options.reference, options.frames, false, false, options.conceal});
+    references_ =
+        open_frames({options.reference, options.frames, false, false, options.conceal, options.open_source});
   }
 }
 

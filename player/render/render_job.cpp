@@ -1,12 +1,12 @@
 #include "player/render/render_job.hpp"
 
-#include "cli/option_values.hpp"
-#include "cli/progress.hpp"
-#include "cli/tool_error.hpp"
 #include "player/render/overlay_frames.hpp"
 #include "player/render/picture.hpp"
 #include "player/render/picture_output.hpp"
 #include "player/render/sheet.hpp"
+#include "tool/option_values.hpp"
+#include "tool/progress.hpp"
+#include "tool/tool_error.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "player/render/render_options.hpp"
 
-#include "cli/mesh_format.hpp"
-#include "cli/option_values.hpp"
-#include "cli/tool_error.hpp"
 #include "player/render/video_writer.hpp"
+#include "tool/mesh_format.hpp"
+#include "tool/option_values.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

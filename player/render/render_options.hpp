@@ -1,7 +1,6 @@
 #pragma once
-#include "cli/frame_pattern.hpp"
-#include "encoder/importers/frame_range.hpp"
 #include "player/view/look.hpp"
+#include "tool/frame_pattern.hpp"
 
 #include <cstdint>
 #include <optional>

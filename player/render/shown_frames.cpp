@@ -1,7 +1,7 @@
 #include "player/render/shown_frames.hpp"
 
-#include "cli/tool_error.hpp"
-#include "decoder/stream_source.hpp"
+#include "tool/stream_source.hpp"
+#include "tool/tool_error.hpp"
 
 namespace tvg::cli {
 

@@ -1,5 +1,6 @@
 #pragma once
-#include "encoder/importers/frame_range.hpp"
+
+#include "tool/source_opener.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -7,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <tvg/mesh.hpp>
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 
@@ -44,6 +45,7 @@ struct ShownFramesSpec {
   bool flags = false;                ///< `values` are the importance flags, 1 or 0; only a .tvg has them
   bool whole_gops = false;           ///< give out all frames of the GOPs that the range touches
   bool conceal = false;              ///< hold the last good frame where frames are lost, and say so
+  SourceOpener open_source = {};     ///< opens inputs that are no .tvg
 };
 
 /// Whether these inputs are a .tvg.

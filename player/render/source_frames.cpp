@@ -1,6 +1,6 @@
-#include "cli/tool_error.hpp"
-#include "encoder/importers/open_source.hpp"
 #include "player/render/shown_frames.hpp"
+#include "tool/option_values.hpp"
+#include "tool/tool_error.hpp"
 
 #include <tvg/encoder.hpp>
 
@@ -14,7 +14,7 @@ class SourceFrames final : public ShownFrames {
  public:
   explicit SourceFrames(const ShownFramesSpec& spec) {
     const bool cut = spec.frames && !spec.whole_gops;
-    source_ = open_source({spec.inputs, cut ? spec.frames : std::nullopt}).source;
+    source_ = spec.open_source(spec.inputs, cut ? spec.frames : std::nullopt);
     mesh_ = std::make_shared<const Mesh>(source_->mesh());
     if (cut) begin_ = spec.frames->first;
     number_ = begin_;

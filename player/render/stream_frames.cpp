@@ -1,7 +1,8 @@
-#include "cli/tool_error.hpp"
-#include "decoder/stream_reader.hpp"
 #include "player/render/shown_frames.hpp"
 #include "player/view/overlay.hpp"
+#include "tool/option_values.hpp"
+#include "tool/stream_reader.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "player/render/video_writer.hpp"
 
-#include "cli/mesh_format.hpp"
-#include "cli/tool_error.hpp"
+#include "tool/mesh_format.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
-#include "cli/atomic_file.hpp"
 #include "player/view/image.hpp"
+#include "tool/atomic_file.hpp"
 
 #include <string>
 #include <sys/types.h>

@@ -2,7 +2,7 @@
 #include <array>
 #include <span>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 

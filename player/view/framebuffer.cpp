@@ -1,6 +1,6 @@
 #include "player/view/framebuffer.hpp"
 
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <cstring>

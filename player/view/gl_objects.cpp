@@ -1,6 +1,6 @@
 #include "player/view/gl_objects.hpp"
 
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <array>
 

@@ -1,7 +1,7 @@
 #include "player/view/image.hpp"
 
-#include "cli/atomic_file.hpp"
-#include "cli/tool_error.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -1,6 +1,6 @@
 #include "player/view/joint_overlay.hpp"
 
-#include "cli/colour_map.hpp"
+#include "tool/colour_map.hpp"
 
 #include <Eigen/Core>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "player/view/look.hpp"
 
-#include "cli/option_values.hpp"
+#include "tool/option_values.hpp"
 
 #include <CLI/CLI.hpp>
 #include <array>

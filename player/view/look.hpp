@@ -1,6 +1,7 @@
 #pragma once
 #include "player/view/camera.hpp"
 #include "player/view/mesh_renderer.hpp"
+#include "tool/source_opener.hpp"
 
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ struct Look {
   int height = 720;
   ViewAngles angles;
   Overlay overlay = Overlay::kNone;
+  SourceOpener open_source;            ///< opens a reference, or inputs, that are no .tvg
   std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none
   Style style;
 };

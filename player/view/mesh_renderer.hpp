@@ -1,14 +1,14 @@
 #pragma once
-#include "cli/colour_map.hpp"
 #include "player/view/bounds.hpp"
 #include "player/view/camera.hpp"
 #include "player/view/gl_objects.hpp"
+#include "tool/colour_map.hpp"
 
 #include <array>
 #include <cstdint>
 #include <span>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::cli {
 

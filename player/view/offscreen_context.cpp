@@ -1,6 +1,6 @@
 #include "player/view/offscreen_context.hpp"
 
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <array>
 #include <epoxy/egl.h>

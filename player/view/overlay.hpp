@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include <tvg/mesh.hpp>
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
+#include <tvg/types.hpp>
 
 // Values per vertex that colour a mesh, in their own units; scale_values() brings them to a colour map
 // (cli/colour_map.hpp).

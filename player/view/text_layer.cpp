@@ -1,6 +1,6 @@
 #include "player/view/text_layer.hpp"
 
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <backends/imgui_impl_opengl3.h>

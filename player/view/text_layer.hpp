@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/colour_map.hpp"
+#include "tool/colour_map.hpp"
 
 #include <string>
 

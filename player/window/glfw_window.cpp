@@ -1,7 +1,7 @@
 #include "player/window/glfw_window.hpp"
 
-#include "cli/tool_error.hpp"
 #include "player/window/theme.hpp"
+#include "tool/tool_error.hpp"
 
 #include <epoxy/gl.h>
 // OpenGL's declarations are epoxy's.

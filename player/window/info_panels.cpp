@@ -1,7 +1,7 @@
 #include "player/window/info_panels.hpp"
 
-#include "cli/option_values.hpp"
 #include "player/window/theme.hpp"
+#include "tool/option_values.hpp"
 
 #include <algorithm>
 #include <cmath>

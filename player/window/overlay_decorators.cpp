@@ -1,8 +1,8 @@
 #include "player/window/overlay_decorators.hpp"
 
-#include "cli/tool_error.hpp"
 #include "player/render/shown_frames.hpp"
 #include "player/view/overlay.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <map>
@@ -105,8 +105,9 @@ class CostDecorator final : public OverlayDecorator {
 /// Distance from the reference's frame of the same number.
 class ErrorDecorator final : public OverlayDecorator {
  public:
-  explicit ErrorDecorator(std::vector<std::string> inputs)
-      : spec_{std::move(inputs), {}, false, false, false}, frames_(open_frames(spec_)) {}
+  ErrorDecorator(std::vector<std::string> inputs, SourceOpener open_source)
+      : spec_{std::move(inputs), {}, false, false, false, std::move(open_source)},
+        frames_(open_frames(spec_)) {}
 
   Legend legend() const override {
     const std::lock_guard lock(mutex_);
@@ -170,7 +171,8 @@ class ErrorDecorator final : public OverlayDecorator {
 }  // namespace
 
 std::shared_ptr<OverlayDecorator> make_overlay_decorator(Overlay overlay,
-                                                         const std::vector<std::string>& reference) {
+                                                         const std::vector<std::string>& reference,
+                                                         SourceOpener open_source) {
   switch (overlay) {
     case Overlay::kNone:
       return nullptr;
@@ -179,7 +181,7 @@ std::shared_ptr<OverlayDecorator> make_overlay_decorator(Overlay overlay,
     case Overlay::kCost:
       return std::make_shared<CostDecorator>();
     case Overlay::kError:
-      return std::make_shared<ErrorDecorator>(reference);
+      return std::make_shared<ErrorDecorator>(reference, std::move(open_source));
   }
   return nullptr;
 }

@@ -17,8 +17,9 @@ class OverlayDecorator : public FrameDecorator {
 };
 
 /// The decorator of an overlay; null for kNone. `reference` are the inputs that kError compares with, a .tvg
-/// or what `tvg encode` takes. Throws ToolError where they cannot be opened.
+/// or what `open_source` takes. Throws ToolError where they cannot be opened.
 std::shared_ptr<OverlayDecorator> make_overlay_decorator(Overlay overlay,
-                                                         const std::vector<std::string>& reference);
+                                                         const std::vector<std::string>& reference,
+                                                         SourceOpener open_source);
 
 }  // namespace tvg::cli

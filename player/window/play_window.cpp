@@ -1,12 +1,12 @@
 #include "player/window/play_window.hpp"
 
-#include "cli/atomic_file.hpp"
-#include "cli/tool_error.hpp"
 #include "player/view/image.hpp"
 #include "player/window/glfw_window.hpp"
 #include "player/window/interface.hpp"
 #include "player/window/overlay_decorators.hpp"
 #include "player/window/play_figures.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -116,7 +116,7 @@ class PlayWindow {
 
   void set_overlay(Overlay overlay) {
     try {
-      decorator_ = make_overlay_decorator(overlay, options_.reference);
+      decorator_ = make_overlay_decorator(overlay, options_.reference, options_.open_source);
     } catch (const ToolError& error) {
       notify(error.what());
       return;

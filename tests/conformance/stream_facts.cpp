@@ -1,6 +1,6 @@
 #include "stream_facts.hpp"
 
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 
 #include <cstdio>
 #include <iomanip>

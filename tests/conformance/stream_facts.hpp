@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg::conformance {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 // Small meshes of every sort, for tests.
 namespace tvg::test {

@@ -1,6 +1,6 @@
 #include "container/layout.hpp"
 
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 
 #include <array>
 #include <cstdint>

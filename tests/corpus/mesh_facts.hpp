@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 // Plain counts over connectivity, for tests.
 namespace tvg::testing {

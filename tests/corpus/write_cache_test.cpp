@@ -1,6 +1,6 @@
 #include "corpus/write_cache.hpp"
 
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <cstdio>
 #include <cstring>

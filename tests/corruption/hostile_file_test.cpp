@@ -1,4 +1,4 @@
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 #include "container/layout.hpp"
 #include "judge.hpp"
 #include "repair.hpp"

@@ -1,6 +1,6 @@
 #include "judge.hpp"
 
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 #include "memory_meter.hpp"
 
 #include <algorithm>

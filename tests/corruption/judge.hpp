@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 // Decodes damaged streams and compares what comes out with what went in.
 namespace tvg::corruption {

@@ -1,6 +1,6 @@
 #include "repair.hpp"
 
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 #include "container/layout.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli::testing {
 

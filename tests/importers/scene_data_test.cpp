@@ -1,4 +1,4 @@
-#include "container/checksum.hpp"
+#include "base/checksum.hpp"
 #include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_summary.hpp"
 #include "tests/importers/io_toolbox.hpp"

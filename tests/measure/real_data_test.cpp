@@ -78,7 +78,7 @@ TEST_P(RealData, BothCurvaturesRankVerticesAlike) {
   if (!std::filesystem::exists(stem + ".pc2")) {
     GTEST_SKIP() << "no real sequences: set TVG_DATA_DIR to their folder";
   }
-  const auto source = cli::open_source({{stem + ".obj", stem + ".pc2"}, cli::FrameRange{0, 24}}).source;
+  const auto source = cli::open_source({{stem + ".obj", stem + ".pc2"}, FrameRange{0, 24}}).source;
   Sequence sequence{source->mesh(), {}, {}};
   FramePositions frame(3 * std::size_t{sequence.mesh.vertex_count});
   while (*source->read_frame(frame)) sequence.frames.push_back(frame);

@@ -1,6 +1,6 @@
 #include "player/playback/playback_clock.hpp"
 
-#include "cli/option_values.hpp"
+#include "tool/option_values.hpp"
 
 #include <gtest/gtest.h>
 

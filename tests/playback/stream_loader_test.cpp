@@ -1,9 +1,9 @@
 #include "player/playback/stream_loader.hpp"
 
-#include "cli/tool_error.hpp"
 #include "playback_toolbox.hpp"
 #include "player/playback/file_input.hpp"
 #include "player/playback/pipe_input.hpp"
+#include "tool/tool_error.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
+#include "planes/frame_coder.hpp"
 #include "prediction/elp.hpp"
-#include "prediction/frame_coder.hpp"
 #include "prediction/space.hpp"
 #include "prediction/time.hpp"
 

@@ -1,6 +1,6 @@
 #include "player/view/camera.hpp"
 
-#include "cli/tool_error.hpp"
+#include "tool/tool_error.hpp"
 
 #include <array>
 #include <cmath>

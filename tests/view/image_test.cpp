@@ -1,7 +1,7 @@
 #include "player/view/image.hpp"
 
-#include "cli/tool_error.hpp"
 #include "tests/importers/io_toolbox.hpp"
+#include "tool/tool_error.hpp"
 
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -2,8 +2,8 @@
 // made anew, and looked at, with TVG_STORE_PICTURES=1 build/release/tests/view_tests
 #include "tests/view/pictures.hpp"
 
-#include "cli/tool_error.hpp"
 #include "player/view/offscreen_context.hpp"
+#include "tool/tool_error.hpp"
 
 #include <cstdlib>
 #include <gtest/gtest.h>

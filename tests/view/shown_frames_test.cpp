@@ -1,10 +1,11 @@
 #include "player/render/shown_frames.hpp"
 
-#include "cli/tool_error.hpp"
 #include "corpus/corpus.hpp"
 #include "corpus/write_cache.hpp"
+#include "encoder/importers/open_source.hpp"
 #include "player/view/overlay.hpp"
 #include "tests/importers/io_toolbox.hpp"
+#include "tool/tool_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +43,9 @@ class Shown : public ::testing::Test {
   ShownFramesSpec files() const {
     ShownFramesSpec spec;
     spec.inputs = {folder_.path("hand.obj"), folder_.path("hand.pc2")};
+    spec.open_source = [](const auto& inputs, const auto& frames) {
+      return open_source({inputs, frames}).source;
+    };
     return spec;
   }
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include <tvg/sequence.hpp>
+#include <tvg/source.hpp>
 
 namespace tvg::cli::testing {
 

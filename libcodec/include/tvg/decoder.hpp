@@ -7,22 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <tvg/error.hpp>
-#include <tvg/mesh.hpp>
-#include <tvg/sequence.hpp>
-#include <tvg/stream.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
-
-/// What a caller lets a stream ask for. A stream that declares more in its head is refused before anything is
-/// allocated.
-struct DecoderLimits {
-  std::uint32_t vertices = 1u << 24;
-  std::uint32_t faces = 1u << 25;
-  std::uint32_t frames_per_gop = 1u << 16;
-  std::uint32_t packet_bytes = 1u << 29;
-  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
-};
 
 /// A run of frames that could not be decoded, or, with kDigestMismatch, frames that were given out but are
 /// not what was encoded.
@@ -153,11 +140,6 @@ class Decoder {
 
 /// Size of the chunk that ends every stream and says where the index is.
 inline constexpr std::size_t kTailBytes = 28;
-
-struct ByteRange {
-  std::uint64_t offset = 0;
-  std::uint64_t size = 0;
-};
 
 /// Where the index chunk of a stream of `stream_size` bytes lies, from its last kTailBytes bytes. kMalformed
 /// when they are no tail: the stream is cut, or still being written.

@@ -4,10 +4,9 @@
 #include <optional>
 #include <span>
 
-#include <tvg/error.hpp>
 #include <tvg/measure.hpp>
-#include <tvg/sequence.hpp>
-#include <tvg/stream.hpp>
+#include <tvg/source.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 
@@ -34,11 +33,6 @@ struct EncodeReport {
   std::uint64_t bytes = 0;       ///< of the whole stream
   bool box_of_each_gop = false;  ///< the source could be read only once, so each GOP has a lattice of its own
 };
-
-/// Takes the stream's bytes front to back. An error ends the encoding.
-using ByteSink = std::function<Status(std::span<const std::uint8_t>)>;
-/// Hears how far encoding is: frames written, and how many there will be if that is known.
-using EncodeProgress = std::function<void(std::uint64_t frames, std::optional<std::uint64_t> total)>;
 
 /// Encodes a sequence to a stream in one pass of writing. A source that can be rewound is read twice, first
 /// for the bounding box of the whole sequence. Memory is in proportion to `threads` GOPs. Errors:

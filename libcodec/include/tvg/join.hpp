@@ -7,30 +7,19 @@
 #include <string>
 #include <vector>
 
-#include <tvg/decoder.hpp>
-#include <tvg/encoder.hpp>
-#include <tvg/error.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
-
-/// Reads the next bytes of a stream into the span: how many there were, 0 only at the end.
-using ByteSource = std::function<Result<std::size_t>(std::span<std::uint8_t>)>;
 
 struct JoinInput {
   std::string name;  ///< what messages call it
   ByteSource read;
 };
 
-/// Frames first to last, both included, counted from 0.
-struct FrameSpan {
-  std::uint64_t first = 0;
-  std::uint64_t last = 0;
-};
-
 struct JoinOptions {
   /// Frames of the inputs one after the other, counted from 0 over all of them; must begin and end at GOP
   /// borders. All where absent.
-  std::optional<FrameSpan> frames;
+  std::optional<FrameRange> frames;
   DecoderLimits limits;  ///< what the inputs may declare
 };
 

@@ -8,10 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include <tvg/error.hpp>
-#include <tvg/mesh.hpp>
-#include <tvg/sequence.hpp>
 #include <tvg/skeleton.hpp>
+#include <tvg/source.hpp>
+#include <tvg/types.hpp>
 
 // The measure (the paper's Eq. 1 to 6): how much each vertex matters to the animation, as a weighted sum of
 // criteria. The encoder asks it once per GOP; streams carry its flags, so decoders know nothing of it.

@@ -4,8 +4,7 @@
 #include <optional>
 #include <span>
 
-#include <tvg/error.hpp>
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 // How far a decoded sequence lies from its original (design: metrics). Frames are compared one at a time, so
 // that memory does not grow with the number of frames.

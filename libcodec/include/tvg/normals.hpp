@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include <tvg/mesh.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 

@@ -5,11 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <tvg/decoder.hpp>
-#include <tvg/encoder.hpp>
-#include <tvg/error.hpp>
-#include <tvg/sequence.hpp>
-#include <tvg/stream.hpp>
+#include <tvg/types.hpp>
 
 // For programs that pass a stream on while it is being made: a splitter that takes it apart into verified
 // chunks, and an assembler that makes of such chunks a stream for someone who joins later. Neither decodes.

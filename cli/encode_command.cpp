@@ -1,0 +1,217 @@
+#include "cli/commands.hpp"
+#include "cli/input_options.hpp"
+#include "cli/measure_options.hpp"
+#include "cli/watched_source.hpp"
+#include "encoder/live/live_source.hpp"
+#include "encoder/live/stream_output.hpp"
+#include "tool/option_values.hpp"
+#include "tool/progress.hpp"
+#include "tool/tool_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <memory>
+#include <thread>
+
+#include <tvg/encoder.hpp>
+#include <tvg/metrics.hpp>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr int kMostBits = 24;
+constexpr std::uint32_t kLiveGopFrames = 15;  // who joins a live stream waits half a second at most
+constexpr double kUsualFrameRate = 30;
+
+struct EncodeArguments : InputArguments {
+  std::string output;
+  std::string bits = "11";
+  std::string step;
+  MeasureArguments measure;
+  std::string predictor = "elp";
+  std::string mode = "elp";
+  std::optional<std::uint32_t> gop;
+  unsigned threads = 0;
+  bool reorder = false;
+  bool live = false;
+  bool loop = false;
+  bool quiet = false;
+  std::string name;
+  std::string units;
+  std::vector<std::string> metadata;
+};
+
+Metadata metadata_of(const EncodeArguments& arguments) {
+  Metadata metadata;
+  for (const std::string& entry : arguments.metadata) {
+    const std::size_t equals = entry.find('=');
+    if (equals == 0 || equals == std::string::npos) {
+      throw ToolError(ExitStatus::kUsage, fmt::format("--meta {}: write it as KEY=VALUE", entry));
+    }
+    metadata[entry.substr(0, equals)] = entry.substr(equals + 1);
+  }
+  for (const auto& [key, value] : {std::pair("fps", &arguments.fps), std::pair("name", &arguments.name),
+                                   std::pair("units", &arguments.units)}) {
+    if (!value->empty()) metadata[key] = *value;
+  }
+  return metadata;
+}
+
+EncodeOptions options_of(const EncodeArguments& arguments) {
+  EncodeOptions options;
+  if (arguments.step.empty()) {
+    const BitPair bits = parse_bits(arguments.bits);
+    options.fine_bits = bits.fine;
+    options.coarse_bits = bits.coarse;
+  } else {
+    const StepPair step = parse_step(arguments.step);
+    options.step = step.fine;
+    options.fine_bits = kMostBits;
+    options.coarse_bits = kMostBits - step.shift;
+  }
+  if (arguments.measure.any() && options.fine_bits == options.coarse_bits) {
+    throw ToolError(ExitStatus::kUsage,
+                    "--measure, --important and what goes with them need two resolutions, for example --bits "
+                    "13:11");
+  }
+  options.importance = importance_of(arguments.measure);
+  options.predictor = std::map<std::string, Predictor>{
+      {"space", Predictor::kSpace},
+      {"time", Predictor::kTime},
+      {"elp",
+       Predictor::kElp}}.at(arguments.predictor);
+  options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : options.gop_frames);
+  options.keep_vertex_order = !arguments.reorder;
+  options.threads =
+      arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
+  if (arguments.live) options.threads = 1;  // with more, a GOP would wait for those that follow it
+  options.metadata = metadata_of(arguments);
+  return options;
+}
+
+/// How the frames of a live stream come: a pipe's when they come, others at their rate.
+LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata) {
+  LiveInput input;
+  input.open_ended =
+      std::find(arguments.inputs.begin(), arguments.inputs.end(), "-") != arguments.inputs.end();
+  input.loop = arguments.loop;
+  if (input.open_ended) {
+    if (input.loop) throw ToolError(ExitStatus::kUsage, "--loop needs a file: a pipe cannot be read twice");
+    return input;
+  }
+  const auto known = metadata.find("fps");
+  const std::string fps =
+      !arguments.fps.empty() ? arguments.fps : (known != metadata.end() ? known->second : "");
+  input.pace = fps.empty() ? kUsualFrameRate : parse_frame_rate(fps);
+  if (!input.pace) {
+    throw ToolError(ExitStatus::kUsage,
+                    fmt::format("--live needs a frame rate such as 30 or 30000/1001, not {}", fps));
+  }
+  return input;
+}
+
+void print_report(const EncodeArguments& arguments, const EncodeReport& report) {
+  if (report.box_of_each_gop && !arguments.live) {
+    fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
+  }
+  const std::uint64_t raw = 12 * report.frames * report.vertices;
+  fmt::print(
+      stderr,
+      "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
+      arguments.output == "-" ? "standard output" : arguments.output, report.frames, report.vertices,
+      report.gops, readable_bytes(report.bytes),
+      bits_per_coordinate(report.bytes, report.vertices, report.frames),
+      static_cast<double>(raw) / static_cast<double>(report.bytes));
+}
+
+void run_encode(const EncodeArguments& arguments) {
+  EncodeOptions options = options_of(arguments);
+  const OpenedInput opened = open_input(arguments, arguments.live);
+  options.first_frame = opened.first_frame;
+  check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
+  if (!arguments.quiet) print_notes(opened);
+  std::unique_ptr<LiveSource> live;
+  if (arguments.live) {
+    live = std::make_unique<LiveSource>(*opened.source, live_input(arguments, opened.source->metadata()));
+  }
+
+  const std::unique_ptr<StreamOutput> output = open_stream_output(arguments.output, arguments.live);
+  const auto sink = [&output](std::span<const std::uint8_t> bytes) {
+    output->write(bytes);
+    return Status();
+  };
+  ProgressBar bar("encoding", arguments.quiet);
+  const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
+    bar.update(frames, total);
+  };
+  WatchedSource source(live != nullptr ? *live : *opened.source);
+  const Result<EncodeReport> report = encode(source, options, sink, progress);
+  if (source.error()) throw tool_error(*source.error());
+  if (!report) throw tool_error(input_names(arguments), report.error());
+  output->finish();
+
+  if (arguments.quiet) return;
+  bar.clear();
+  if (live != nullptr && live->cut_short()) {
+    fmt::print(stderr, "note: {}: that frame is left out\n", *live->cut_short());
+  }
+  print_report(arguments, *report);
+}
+
+}  // namespace
+
+void add_encode_command(CLI::App& tool) {
+  auto arguments = std::make_shared<EncodeArguments>();
+  CLI::App& command = *tool.add_subcommand("encode", "Make a .tvg of a mesh sequence");
+  add_input_options(command, *arguments);
+  command
+      .add_option("-o,--output", arguments->output,
+                  "the stream to write; - for standard output; an http or https URL for an upload by PUT")
+      ->required();
+  auto* bits = command
+                   .add_option("--bits", arguments->bits,
+                               "bits per coordinate of important and of other vertices (13:11), or of all")
+                   ->capture_default_str();
+  command
+      .add_option(
+          "--step", arguments->step,
+          "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
+          "off by more than half a step")
+      ->excludes(bits);
+  add_measure_options(command, arguments->measure);
+  command.add_option("--mode", arguments->mode, "how frames are coded")
+      ->check(CLI::IsMember({"elp"}))
+      ->capture_default_str();
+  command.add_option("--predictor", arguments->predictor, "what vertices are predicted from")
+      ->check(CLI::IsMember({"space", "time", "elp"}))
+      ->capture_default_str();
+  command
+      .add_option("--gop", arguments->gop,
+                  "frames that can be decoded on their own (default 50; with --live 15)")
+      ->check(CLI::Range(1, 65536));
+  command.add_flag("--reorder", arguments->reorder,
+                   "give up the vertex order, which saves about a byte per vertex");
+  command.add_option("--fps", arguments->fps,
+                     "frames per second, kept with the stream (30, 30000/1001); a scene is sampled at it "
+                     "(default 30)");
+  command.add_option("--name", arguments->name, "a name, kept with the stream");
+  command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
+  command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");
+  auto* threads = command.add_option("--threads", arguments->threads,
+                                     "GOPs encoded at a time (default: one per processor)");
+  auto* live =
+      command
+          .add_flag("--live", arguments->live,
+                    "send each GOP as soon as it is complete: frames from a pipe as they come, until "
+                    "it ends; those of a file at its frame rate (--fps, or 30)")
+          ->excludes(threads);
+  command.add_flag("--loop", arguments->loop, "with --live: begin the file again at its end, until stopped")
+      ->needs(live);
+  command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  command.callback([arguments] { run_encode(*arguments); });
+}
+
+}  // namespace tvg::cli

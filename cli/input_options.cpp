@@ -1,0 +1,58 @@
+#include "cli/input_options.hpp"
+
+#include "encoder/importers/skeleton_file.hpp"
+#include "tool/mesh_format.hpp"
+#include "tool/option_values.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+namespace tvg::cli {
+
+void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others) {
+  command
+      .add_option(
+          "input", arguments.inputs,
+          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
+          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj), or a scene (glTF 2, FBX, COLLADA, X, "
+          "MD5, MD2, ...)" +
+              others)
+      ->required();
+  command.add_option("--frames", arguments.frames, "frames A-B only, counted from 0");
+  command.add_option("--clip", arguments.clip,
+                     "the clip of a scene, by name or number (default: the first); tvg info lists them");
+  command.add_option("--mesh", arguments.meshes,
+                     "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
+  command.add_option("--skeleton", arguments.skeleton,
+                     "the joints of a cache or sequence: a BVH file (frame by frame where it has as many, "
+                     "else by time), or JSON as tvg_corpus writes it");
+}
+
+OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
+  OpenedInput opened;
+  SourceSpec spec{arguments.inputs, {}};
+  spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
+  const bool motion_capture = has_suffix(arguments.skeleton, ".bvh");
+  if (motion_capture) spec.skeleton = arguments.skeleton;
+  spec.open_ended = open_ended;
+  if (!arguments.frames.empty()) {
+    spec.frames = parse_frame_range(arguments.frames);
+    opened.first_frame = spec.frames->first;
+  }
+  static_cast<OpenedSource&>(opened) = open_source(spec);
+  if (!arguments.skeleton.empty() && !motion_capture) {
+    opened.source = with_joints(std::move(opened.source), read_skeleton_file(arguments.skeleton),
+                                arguments.skeleton, opened.first_frame);
+  }
+  return opened;
+}
+
+std::string input_names(const InputArguments& arguments) {
+  return fmt::format("{}", fmt::join(arguments.inputs, ", "));
+}
+
+void print_notes(const OpenedSource& opened) {
+  for (const std::string& note : opened.notes) fmt::print(stderr, "note: {}\n", note);
+}
+
+}  // namespace tvg::cli

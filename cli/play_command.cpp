@@ -1,0 +1,76 @@
+#include "cli/commands.hpp"
+#include "cli/open_source_files.hpp"
+#include "player/playback/playback_clock.hpp"
+#include "player/window/play_window.hpp"
+#include "tool/option_values.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+namespace tvg::cli {
+
+namespace {
+
+struct PlayArguments : LookArguments {
+  std::string location;
+  std::string fps;
+  std::string screenshot;
+  std::string report;
+  double speed = 1;
+  double seconds = 0;
+  std::uint64_t start = 0;
+  std::uint64_t memory_mb = 512;
+  bool once = false;
+  bool paused = false;
+};
+
+PlayOptions options_of(const PlayArguments& arguments) {
+  PlayOptions options;
+  static_cast<Look&>(options) = parse_look(arguments);
+  options.open_source = source_opener();
+  options.location = arguments.location;
+  if (!arguments.fps.empty()) {
+    options.rate = parse_frame_rate(arguments.fps);
+    if (!options.rate) fail_option("--fps", arguments.fps, "write frames per second as 30 or 30000/1001");
+  }
+  options.speed = arguments.speed;
+  options.looping = !arguments.once;
+  options.paused = arguments.paused;
+  options.start = arguments.start;
+  options.memory_bytes = arguments.memory_mb << 20;
+  options.screenshot = arguments.screenshot;
+  options.report = arguments.report;
+  if (arguments.seconds > 0) options.seconds = arguments.seconds;
+  return options;
+}
+
+}  // namespace
+
+void add_play_command(CLI::App& tool) {
+  auto arguments = std::make_shared<PlayArguments>();
+  CLI::App& command =
+      *tool.add_subcommand("play", "Play a stream in a window, from a file or while it arrives");
+  command.add_option(
+      "input", arguments->location,
+      "a .tvg, an http or https URL of one, or - for standard input; a file can also be dropped on "
+      "the window");
+  add_look_options(command, *arguments);
+  command.add_option("--start", arguments->start, "the first frame to show, counted from 0");
+  command.add_flag("--paused", arguments->paused, "wait at the first frame");
+  command.add_flag("--once", arguments->once, "stop at the end instead of beginning again");
+  command.add_option("--fps", arguments->fps,
+                     "frames per second, instead of the stream's own: 30, 30000/1001");
+  command.add_option("--speed", arguments->speed, "times the frame rate")
+      ->check(CLI::Range(PlaybackClock::kSlowest, PlaybackClock::kFastest))
+      ->capture_default_str();
+  command.add_option("--memory", arguments->memory_mb, "MiB of decoded frames held at most")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  command.add_option("--seconds", arguments->seconds, "close after so long")->check(CLI::PositiveNumber);
+  command.add_option("--screenshot", arguments->screenshot,
+                     "save the window with the first frame as .png, and close");
+  command.add_option("--report", arguments->report, "write how playing went as JSON, when the window closes");
+  command.callback([arguments] { run_play_window(options_of(*arguments)); });
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,40 @@
+#include "cli/commands.hpp"
+#include "cli/open_source_files.hpp"
+#include "player/render/render_job.hpp"
+#include "player/render/render_options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+namespace tvg::cli {
+
+void add_render_command(CLI::App& tool) {
+  auto arguments = std::make_shared<RenderArguments>();
+  CLI::App& command = *tool.add_subcommand("render", "Draw frames to pictures or a clip; needs no display");
+  command
+      .add_option("input", arguments->inputs,
+                  "a .tvg (- for standard input), a mesh file and its cache, or a sequence of mesh files")
+      ->required();
+  command
+      .add_option("-o,--output", arguments->output,
+                  "pictures (out%04d.png, numbered as the frames are), one picture or, of several frames, a "
+                  "contact sheet (out.png), or a clip (out.mp4, .webm, .mkv; by ffmpeg)")
+      ->required();
+  command.add_option("--frames", arguments->frames, "draw frames A-B, or A, only; counted from 0");
+  command.add_option("--sheet", arguments->sheet, "columns and rows of a contact sheet: 4x3");
+  command.add_option("--scale", arguments->scale, "value of the last colour of --overlay cost or error");
+  command.add_flag("--side-by-side", arguments->side_by_side, "draw the reference at the left");
+  add_look_options(command, *arguments);
+  command.add_flag("--no-labels", arguments->no_labels, "draw no text and no legend");
+  command.add_option("--fps", arguments->fps, "frames per second of a clip: 30, 30000/1001");
+  command.add_flag("--conceal", arguments->conceal,
+                   "where frames are damaged, hold the last good one and go on");
+  command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
+  command.callback([arguments] {
+    RenderOptions options = parse_render_arguments(*arguments);
+    options.open_source = source_opener();
+    render(options);
+  });
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,25 @@
+#pragma once
+#include "base/byte_io.hpp"
+#include "connectivity/connectivity.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include <tvg/decoder.hpp>
+#include <tvg/types.hpp>
+
+namespace tvg {
+
+/// A mesh as the coding of frames needs it, on either side.
+struct CodedMesh {
+  Mesh mesh;                         ///< in the order frames are given in
+  std::vector<Gate> gates;           ///< [traversal index]
+  std::vector<std::uint32_t> order;  ///< [traversal index] = vertex of `mesh`
+  MeshInfo info;
+  std::uint32_t payload_checksum = 0;  ///< of the mesh chunk: part of what its GOPs' packets are checked by
+};
+
+/// Decodes the payload of a mesh chunk (format-spec §4.3).
+Result<CodedMesh> decode_mesh(Bytes payload, const StreamLimits& limits);
+
+}  // namespace tvg

@@ -1,0 +1,68 @@
+#pragma once
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tvg/skeleton.hpp>
+#include <tvg/types.hpp>
+
+namespace tvg {
+
+/// Frames of one mesh over time, all in memory.
+struct Sequence {
+  Mesh mesh;
+  std::vector<FramePositions> frames;  ///< [frame][vertex][xyz]
+  Metadata metadata;
+};
+
+/// A source of frames that is read front to back, so that no one has to hold a whole sequence in memory.
+class FrameSource {
+ public:
+  virtual ~FrameSource() = default;
+
+  /// The connectivity of every frame; valid as long as the source.
+  virtual const Mesh& mesh() const = 0;
+  /// What the source knows about itself (fps, name, units).
+  virtual Metadata metadata() const { return {}; }
+  /// The joints that move the mesh; empty where the source knows of none. Valid as long as the source.
+  virtual const Skeleton& skeleton() const;
+  /// Where the joints are in the frame that was read last, [joint][xyz]; valid until the next is read.
+  virtual std::span<const float> joint_positions() const { return {}; }
+  /// Number of frames, where the source can know it before reading (a pipe may not).
+  virtual std::optional<std::uint64_t> frame_count() const = 0;
+  /// Reads the next frame into `positions` ([vertex][xyz], exactly 3 * vertex_count floats).
+  /// Returns false at the end of the sequence; an error when the input is broken.
+  virtual Result<bool> read_frame(std::span<float> positions) = 0;
+  /// Goes back to the first frame. Returns false where the input can be read only once (a pipe).
+  virtual bool rewind() = 0;
+};
+
+/// A FrameSource over frames in memory; the sequence and the joints, if any, must outlive it. Frames of
+/// joints go with those of the sequence by number.
+class SequenceSource final : public FrameSource {
+ public:
+  explicit SequenceSource(const Sequence& sequence, const JointTracks* joints = nullptr)
+      : sequence_(sequence), joints_(joints) {}
+
+  const Mesh& mesh() const override { return sequence_.mesh; }
+  Metadata metadata() const override { return sequence_.metadata; }
+  const Skeleton& skeleton() const override;
+  std::span<const float> joint_positions() const override;
+  std::optional<std::uint64_t> frame_count() const override { return sequence_.frames.size(); }
+  Result<bool> read_frame(std::span<float> positions) override;
+  bool rewind() override {
+    next_ = 0;
+    return true;
+  }
+
+ private:
+  const Sequence& sequence_;
+  const JointTracks* joints_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace tvg

@@ -1,0 +1,189 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+// What both halves of the library speak of: errors, meshes and frames, limits, bytes on their way.
+namespace tvg {
+
+// --- errors ---
+
+/// What went wrong. The numbers are frozen: grouped in tens, never renumbered, never reused.
+enum class ErrorCode : int {
+  // 1x: the caller
+  kInvalidArgument = 10,  ///< an option or argument is outside its documented range
+  kInvalidInput = 11,     ///< geometry that cannot be encoded: NaN, infinity, index out of range, no faces
+  kWrongState = 12,       ///< what is asked for is not there yet, or not any more
+  // 2x: the bytes
+  kNotTvg = 20,              ///< the signature is missing
+  kUnsupportedVersion = 21,  ///< a version or a critical chunk this decoder does not know
+  kTruncated = 22,           ///< the bytes end before the structure does
+  kChecksumMismatch = 23,    ///< a checksum does not fit its bytes
+  kMalformed = 24,           ///< a field has a value the specification forbids
+  kDigestMismatch = 25,      ///< decoded integers differ from those that were encoded
+  // 3x: resources
+  kLimitExceeded = 30,  ///< a declared or actual size is above the caller's or the stream's limit
+  kOutOfMemory = 31,    ///< an allocation failed
+  // 4x: the outside world
+  kIo = 40,  ///< reading or writing failed
+};
+
+/// The code's name in kebab case ("checksum-mismatch"), as `--json` prints it.
+const char* error_name(ErrorCode code);
+
+/// An error as a value: nothing in the library throws across its public interface.
+struct Error {
+  ErrorCode code = ErrorCode::kMalformed;
+  std::string message;  ///< one sentence: what is wrong and, where known, what would be right
+  std::optional<std::uint64_t> byte_offset;  ///< where in the stream, counted from its first byte
+  std::optional<std::uint64_t> frame;        ///< the first frame concerned, counted from 0
+  const char* section = "";                  ///< section of format-spec/tvg.md that the bytes break, or ""
+
+  /// The message with code, offset, frame and section appended, on one line.
+  std::string describe() const;
+};
+
+/// Either a value or an error; test with `if (result)` before `*result` or `result.error()`.
+template <class T>
+class [[nodiscard]] Result {
+ public:
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}
+
+  explicit operator bool() const { return state_.index() == 0; }
+  T& operator*() { return *std::get_if<0>(&state_); }
+  const T& operator*() const { return *std::get_if<0>(&state_); }
+  T* operator->() { return std::get_if<0>(&state_); }
+  const T* operator->() const { return std::get_if<0>(&state_); }
+  Error& error() { return *std::get_if<1>(&state_); }
+  const Error& error() const { return *std::get_if<1>(&state_); }
+
+ private:
+  std::variant<T, Error> state_;
+};
+
+/// Success, or an error: test with `if (status.ok())`.
+class [[nodiscard]] Status {
+ public:
+  Status() = default;
+  Status(Error error) : error_(std::move(error)) {}
+
+  bool ok() const { return !error_.has_value(); }
+  const Error& error() const { return *error_; }
+
+ private:
+  std::optional<Error> error_;
+};
+
+// --- meshes and frames ---
+
+/// A triangle: three vertex indices, counter-clockwise seen from outside.
+using Face = std::array<std::uint32_t, 3>;
+
+/// Connectivity: any triangle soup. Boundaries, several components, non-manifold edges and vertices, isolated
+/// vertices, duplicate and degenerate faces are all allowed; every index is below `vertex_count`.
+struct Mesh {
+  std::uint32_t vertex_count = 0;
+  std::vector<Face> faces;  ///< [face][corner]
+
+  bool operator==(const Mesh&) const = default;
+};
+
+/// Key-value pairs of text (see is_metadata_text). Reserved keys: `fps` ("30", "30000/1001"), `name`, `units`
+/// ("m", "cm", ...), `up` ("y", "z").
+using Metadata = std::map<std::string, std::string>;
+
+/// Whether `text` may be a key or a value of metadata: well-formed UTF-8 without U+0000 (format-spec §4.2).
+bool is_metadata_text(std::string_view text);
+
+/// Positions of one frame: float32 [vertex][xyz], 3 * vertex_count values.
+using FramePositions = std::vector<float>;
+
+/// Frames first to last, both included, counted from 0.
+struct FrameRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+// --- streams ---
+
+/// Version of the format this library writes. A reader takes the same major version and any minor one up to
+/// its own.
+inline constexpr std::uint16_t kFormatMajor = 0;
+inline constexpr std::uint16_t kFormatMinor = 1;
+
+/// How frames are predicted (format-spec §7.2).
+enum class Predictor : std::uint8_t {
+  kSpace = 0,  ///< the parallelogram of the gate in the same frame
+  kTime = 1,   ///< the same vertex in the frame before
+  kElp = 2,    ///< Extended Lorenzo: the parallelogram of the motion (the paper's Eq. 9)
+};
+
+/// Upper bounds a stream declares for itself (format-spec §4.1).
+struct StreamLimits {
+  std::uint32_t vertices = 0;        ///< of any mesh
+  std::uint32_t faces = 0;           ///< of any mesh
+  std::uint32_t frames_per_gop = 0;  ///< of any GOP
+  std::uint32_t packet_bytes = 0;    ///< of any packet
+  std::uint64_t decoder_memory = 0;  ///< bytes, as decoder_memory_needed() gives them
+
+  bool operator==(const StreamLimits&) const = default;
+};
+
+/// The memory a decoder of this library may need for a stream with these limits, in bytes (format-spec §8.2).
+constexpr std::uint64_t decoder_memory_needed(const StreamLimits& limits) {
+  return (std::uint64_t{1} << 20) + 160 * std::uint64_t{limits.vertices} + 96 * std::uint64_t{limits.faces} +
+         4 * std::uint64_t{limits.packet_bytes};
+}
+
+/// What the head of a stream says.
+struct StreamHead {
+  std::uint16_t major = kFormatMajor;
+  std::uint16_t minor = kFormatMinor;
+  StreamLimits limits;
+};
+
+/// One line of a stream's index (format-spec §4.6).
+struct IndexEntry {
+  enum class Kind : std::uint8_t { kMesh = 0, kGop = 1 };
+
+  Kind kind = Kind::kGop;
+  std::uint64_t offset = 0;       ///< of the chunk's first byte, from the first byte of the stream
+  std::uint32_t frame_count = 0;  ///< frames of a GOP, 0 for a mesh
+
+  bool operator==(const IndexEntry&) const = default;
+};
+
+/// What a caller lets a stream ask for. A stream that declares more in its head is refused before anything is
+/// allocated.
+struct DecoderLimits {
+  std::uint32_t vertices = 1u << 24;
+  std::uint32_t faces = 1u << 25;
+  std::uint32_t frames_per_gop = 1u << 16;
+  std::uint32_t packet_bytes = 1u << 29;
+  std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
+};
+
+struct ByteRange {
+  std::uint64_t offset = 0;
+  std::uint64_t size = 0;
+};
+
+/// Takes the stream's bytes front to back. An error ends the encoding.
+using ByteSink = std::function<Status(std::span<const std::uint8_t>)>;
+/// Hears how far encoding is: frames written, and how many there will be if that is known.
+using EncodeProgress = std::function<void(std::uint64_t frames, std::optional<std::uint64_t> total)>;
+
+/// Reads the next bytes of a stream into the span: how many there were, 0 only at the end.
+using ByteSource = std::function<Result<std::size_t>(std::span<std::uint8_t>)>;
+
+}  // namespace tvg

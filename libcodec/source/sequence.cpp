@@ -1,0 +1,39 @@
+#include <algorithm>
+
+#include <tvg/source.hpp>
+
+namespace tvg {
+
+const Skeleton& FrameSource::skeleton() const {
+  static const Skeleton none;
+  return none;
+}
+
+const Skeleton& SequenceSource::skeleton() const {
+  return joints_ != nullptr ? joints_->skeleton : FrameSource::skeleton();
+}
+
+std::span<const float> SequenceSource::joint_positions() const {
+  if (joints_ == nullptr || next_ == 0 || next_ > joints_->frames.size()) return {};
+  return joints_->frames[next_ - 1];
+}
+
+Result<bool> SequenceSource::read_frame(std::span<float> positions) {
+  if (next_ == sequence_.frames.size()) return false;
+  const FramePositions& frame = sequence_.frames[next_];
+  if (frame.size() != positions.size()) {
+    Error error{ErrorCode::kInvalidInput,
+                "frame " + std::to_string(next_) + " has " + std::to_string(frame.size() / 3) +
+                    " vertices where the mesh has " + std::to_string(positions.size() / 3),
+                {},
+                {},
+                ""};
+    error.frame = next_;
+    return error;
+  }
+  std::copy(frame.begin(), frame.end(), positions.begin());
+  ++next_;
+  return true;
+}
+
+}  // namespace tvg

@@ -1,0 +1,167 @@
+#include "container/stream_writer.hpp"
+#include "streams/join_input.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <new>
+#include <utility>
+
+#include <tvg/join.hpp>
+
+namespace tvg {
+
+namespace {
+
+Error invalid_argument(std::string message) {
+  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
+}
+
+std::string text(const FrameRange& frames) {
+  return std::to_string(frames.first) + "-" + std::to_string(frames.last);
+}
+
+class Joiner {
+ public:
+  Joiner(const JoinOptions& options, const ByteSink& sink, const EncodeProgress& progress)
+      : options_(options),
+        writer_(sink),
+        writer_sink_([this](Bytes bytes) { return writer_.write(bytes); }),
+        progress_(progress) {}
+
+  Result<JoinReport> run(std::vector<JoinInput> inputs) {
+    if (inputs.empty()) return invalid_argument("there is nothing to join");
+    if (options_.frames && options_.frames->first > options_.frames->last) {
+      return invalid_argument("frames " + text(*options_.frames) + ": the first comes after the last");
+    }
+    // All heads and metadata come before the first byte is written.
+    for (JoinInput& input : inputs) {
+      readers_.emplace_back(std::move(input), options_.limits);
+      if (Status status = readers_.back().begin(); !status.ok()) return status.error();
+    }
+    if (Status status = write_start(); !status.ok()) return status.error();
+    for (; !readers_.empty() && !done(); readers_.pop_front()) {
+      if (Status status = add(readers_.front()); !status.ok()) return status.error();
+    }
+    if (options_.frames && !done()) {
+      return invalid_argument("frames " + text(*options_.frames) + " are asked for, but the input has " +
+                              (position_ == 0 ? "none" : "the frames " + text({0, position_ - 1})));
+    }
+    if (report_.frames == 0) return Error{ErrorCode::kInvalidInput, "the inputs have no frames", {}, {}, ""};
+    if (Status status = writer_.write_end(); !status.ok()) return status.error();
+    report_.bytes = writer_.offset();
+    return std::move(report_);
+  }
+
+ private:
+  bool done() const { return options_.frames && position_ > options_.frames->last; }
+
+  Status write_start() {
+    StreamLimits limits;
+    for (const JoinInputReader& reader : readers_) {
+      const StreamLimits& other = reader.limits();
+      limits.vertices = std::max(limits.vertices, other.vertices);
+      limits.faces = std::max(limits.faces, other.faces);
+      limits.frames_per_gop = std::max(limits.frames_per_gop, other.frames_per_gop);
+      limits.packet_bytes = std::max(limits.packet_bytes, other.packet_bytes);
+    }
+    limits.decoder_memory = decoder_memory_needed(limits);
+    const Metadata metadata = merge_metadata();
+    if (write_metadata(metadata).size() > kMaxSmallPayload) {
+      return Error{ErrorCode::kLimitExceeded,
+                   "the metadata of all inputs together are too long for a stream",
+                   {},
+                   {},
+                   "§4.2"};
+    }
+    return writer_.write_start(limits, metadata);
+  }
+
+  Metadata merge_metadata() {
+    Metadata merged;
+    for (const JoinInputReader& reader : readers_) {
+      for (const auto& [key, value] : reader.metadata()) {
+        const std::string& kept = merged.emplace(key, value).first->second;
+        if (kept == value) continue;
+        std::string& note = report_.notes.emplace_back(reader.name());
+        note.append(": its ").append(key).append(" is \"").append(value);
+        note.append("\"; \"").append(kept).append("\" of an earlier input is kept");
+      }
+    }
+    return merged;
+  }
+
+  Status add(JoinInputReader& reader) {
+    while (!done()) {
+      const Result<bool> more = reader.next_gop();
+      if (!more) return more.error();
+      if (!*more) break;
+      const FrameRange gop{position_, position_ + reader.gop_frames() - 1};
+      const Result<bool> wanted = is_wanted(gop, reader.name());
+      if (!wanted) return wanted.error();
+      if (*wanted) {
+        if (Status status = write_gop_start(reader); !status.ok()) return status;
+      }
+      if (Status status = reader.pass_gop(*wanted ? &writer_sink_ : nullptr); !status.ok()) return status;
+      position_ = gop.last + 1;
+      if (!*wanted) continue;
+      ++report_.gops;
+      report_.frames += reader.gop_frames();
+      if (progress_) progress_(report_.frames, std::nullopt);
+    }
+    if (reader.chunks_passed_over() > 0) {
+      report_.notes.push_back(reader.name() + ": chunks of unknown or out-of-place kinds are left out: " +
+                              std::to_string(reader.chunks_passed_over()));
+    }
+    return {};
+  }
+
+  /// Whether a GOP is to be copied; an error where a border of the frames asked for lies inside it.
+  Result<bool> is_wanted(const FrameRange& gop, const std::string& name) const {
+    if (!options_.frames) return true;
+    const FrameRange& wanted = *options_.frames;
+    const std::string where = " lies inside the GOP of frames " + text(gop) + " (" + name + "): a cut can ";
+    if (wanted.first > gop.first && wanted.first <= gop.last) {
+      return invalid_argument("frame " + std::to_string(wanted.first) + where + "begin at frame " +
+                              std::to_string(gop.first) + ", or at " + std::to_string(gop.last + 1) +
+                              " where frames follow");
+    }
+    if (wanted.last >= gop.first && wanted.last < gop.last) {
+      const std::string before = gop.first > wanted.first ? std::to_string(gop.first - 1) + " or " : "";
+      return invalid_argument("frame " + std::to_string(wanted.last) + where + "end at frame " + before +
+                              std::to_string(gop.last));
+    }
+    return wanted.first <= gop.first && gop.last <= wanted.last;
+  }
+
+  Status write_gop_start(const JoinInputReader& reader) {
+    if (!std::equal(reader.mesh().begin(), reader.mesh().end(), mesh_.begin(), mesh_.end())) {
+      mesh_.assign(reader.mesh().begin(), reader.mesh().end());
+      if (Status status = writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh_)); !status.ok())
+        return status;
+      ++report_.meshes;
+    }
+    return writer_.write_gop_chunk(reader.gop_start(), reader.gop_frames());
+  }
+
+  const JoinOptions& options_;
+  StreamWriter writer_;
+  ByteSink writer_sink_;  ///< appends to what the writer has written
+  const EncodeProgress& progress_;
+  std::deque<JoinInputReader> readers_;
+  std::vector<std::uint8_t> mesh_;  ///< payload of the mesh written last
+  std::uint64_t position_ = 0;      ///< of the next frame over all inputs
+  JoinReport report_;
+};
+
+}  // namespace
+
+Result<JoinReport> join(std::vector<JoinInput> inputs, const JoinOptions& options, const ByteSink& sink,
+                        const EncodeProgress& progress) {
+  try {
+    return Joiner(options, sink, progress).run(std::move(inputs));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::kOutOfMemory, "there is not enough memory for the inputs' meshes", {}, {}, ""};
+  }
+}
+
+}  // namespace tvg

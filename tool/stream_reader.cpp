@@ -1,0 +1,107 @@
+#include "tool/stream_reader.hpp"
+
+#include "tool/tool_error.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace tvg::cli {
+
+namespace {
+
+ToolError io_error(const std::string& name, const std::string& what) {
+  return {ExitStatus::kIo, fmt::format("{}: {}: {}", name, what, std::strerror(errno))};
+}
+
+constexpr std::size_t kPieceBytes = std::size_t{1} << 16;
+constexpr std::uint64_t kMaxIndexBytes = std::uint64_t{1} << 26;
+
+}  // namespace
+
+StreamReader::StreamReader(const std::string& path)
+    : name_(path == "-" ? "standard input" : path),
+      descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)),
+      piece_(kPieceBytes) {
+  if (descriptor_ < 0) throw io_error(name_, "cannot be opened");
+  struct stat status {};
+  if (::fstat(descriptor_, &status) == 0) {
+    if (S_ISDIR(status.st_mode)) {
+      throw ToolError(ExitStatus::kIo, fmt::format("{}: is a folder; a .tvg file is expected", name_));
+    }
+    if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
+  }
+}
+
+StreamReader::~StreamReader() {
+  if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
+}
+
+std::size_t StreamReader::read_some(void* target, std::size_t size) {
+  for (;;) {
+    const ssize_t count = ::read(descriptor_, target, size);
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) throw io_error(name_, "cannot be read");
+  }
+}
+
+Decoder::Event StreamReader::next() {
+  for (;;) {
+    const Decoder::Event event = decoder_.poll();
+    if (event != Decoder::Event::kNeedBytes) return event;
+    if (size_) {
+      if (const std::uint64_t count = decoder_.skip(); count > 0) move_to(count, SEEK_CUR);
+    }
+    const std::size_t count = read_some(piece_.data(), piece_.size());
+    if (count == 0) {
+      decoder_.finish();
+    } else {
+      decoder_.push({piece_.data(), count});
+    }
+  }
+}
+
+std::vector<std::uint8_t> StreamReader::read_at(std::uint64_t offset, std::size_t size) {
+  std::vector<std::uint8_t> bytes(size);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t count =
+        ::pread(descriptor_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw io_error(name_, "cannot be read");
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+std::optional<std::vector<IndexEntry>> StreamReader::read_index() {
+  if (!size_ || *size_ < kTailBytes) return std::nullopt;
+  const Result<ByteRange> range = locate_index(read_at(*size_ - kTailBytes, kTailBytes), *size_);
+  if (!range || range->size > kMaxIndexBytes) return std::nullopt;
+  const Result<std::vector<IndexEntry>> index =
+      parse_index(read_at(range->offset, static_cast<std::size_t>(range->size)));
+  if (!index) return std::nullopt;
+  decoder_.set_index(*index);
+  return *index;
+}
+
+void StreamReader::seek(std::uint64_t frame) {
+  const Result<std::uint64_t> offset = decoder_.seek(frame);
+  if (!offset) throw tool_error(name_, offset.error());
+  move_to(*offset, SEEK_SET);
+}
+
+void StreamReader::move_to(std::uint64_t offset, int whence) {
+  if (::lseek(descriptor_, static_cast<off_t>(offset), whence) < 0) throw io_error(name_, "cannot be read");
+}
+
+std::string frame_run(std::uint64_t first, std::uint64_t count) {
+  return count == 1 ? fmt::format("frame {}", first) : fmt::format("frames {}-{}", first, first + count - 1);
+}
+
+}  // namespace tvg::cli

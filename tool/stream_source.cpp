@@ -1,0 +1,78 @@
+#include "tool/stream_source.hpp"
+
+#include "tool/mesh_format.hpp"
+#include "tool/tool_error.hpp"
+
+#include <utility>
+
+namespace tvg::cli {
+
+bool is_stream_file(const std::string& path) {
+  return has_suffix(path, ".tvg");
+}
+
+StreamSource::StreamSource(std::string path) : path_(std::move(path)) {
+  open();
+  if (const auto index = reader_->read_index()) {
+    frame_count_ = 0;
+    for (const IndexEntry& entry : *index) *frame_count_ += entry.frame_count;
+  }
+}
+
+void StreamSource::open() {
+  reader_ = std::make_unique<StreamReader>(path_);
+  for (;;) {
+    const Decoder& decoder = reader_->decoder();
+    switch (reader_->next()) {
+      case Decoder::Event::kMesh:
+        mesh_ = decoder.mesh();
+        return;
+      case Decoder::Event::kError:
+        throw tool_error(path_, decoder.error());
+      case Decoder::Event::kDamage:
+        throw tool_error(path_, decoder.damage().error);
+      case Decoder::Event::kEnd:
+        throw ToolError(ExitStatus::kInvalidInput, path_ + ": the stream has no mesh");
+      default:
+        break;
+    }
+  }
+}
+
+Error StreamSource::named(Error error) const {
+  error.message = path_ + ": " + error.message;
+  return error;
+}
+
+Result<bool> StreamSource::read_frame(std::span<float> positions) {
+  for (;;) {
+    const Decoder& decoder = reader_->decoder();
+    switch (reader_->next()) {
+      case Decoder::Event::kFrame:
+        decoder.copy_positions(positions.data());
+        return true;
+      case Decoder::Event::kEnd:
+        return false;
+      case Decoder::Event::kError:
+        return named(decoder.error());
+      case Decoder::Event::kDamage:
+        return named(decoder.damage().error);
+      case Decoder::Event::kMesh:
+        return named({ErrorCode::kInvalidInput,
+                      "the stream goes on with another mesh: take its parts one by one",
+                      {},
+                      {},
+                      ""});
+      default:
+        break;
+    }
+  }
+}
+
+bool StreamSource::rewind() {
+  if (!reader_->size()) return false;
+  open();
+  return true;
+}
+
+}  // namespace tvg::cli

@@ -1,0 +1,37 @@
+#pragma once
+#include "tool/stream_reader.hpp"
+
+#include <memory>
+#include <string>
+
+#include <tvg/source.hpp>
+
+namespace tvg::cli {
+
+/// Whether a path names a .tvg.
+bool is_stream_file(const std::string& path);
+
+/// The frames of a .tvg as a source. A damaged stream, or one with more than one mesh, yields an error, whose
+/// message names the file.
+class StreamSource final : public FrameSource {
+ public:
+  /// Reads up to the mesh. Throws ToolError when the stream cannot be opened or has no mesh.
+  explicit StreamSource(std::string path);
+
+  const Mesh& mesh() const override { return mesh_; }
+  Metadata metadata() const override { return reader_->decoder().metadata(); }
+  std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
+  Result<bool> read_frame(std::span<float> positions) override;
+  bool rewind() override;
+
+ private:
+  void open();
+  Error named(Error error) const;
+
+  std::string path_;
+  std::unique_ptr<StreamReader> reader_;
+  Mesh mesh_;
+  std::optional<std::uint64_t> frame_count_;
+};
+
+}  // namespace tvg::cli
