@@ -14,7 +14,7 @@ namespace tvg::bench {
 
 std::string default_data_folder() {
   const char* folder = std::getenv("TVG_DATA_DIR");
-  return folder != nullptr ? folder : TVG_DEFAULT_DATA_DIR;
+  return folder != nullptr ? folder : "";
 }
 
 std::vector<std::string> names_in(const std::string& folder) {

@@ -14,7 +14,7 @@ struct NamedSequence {
   Sequence sequence;
 };
 
-/// Where sequences are looked for: $TVG_DATA_DIR, else the folder the build was told of.
+/// Where sequences are looked for: $TVG_DATA_DIR; empty where it is not set.
 std::string default_data_folder();
 
 /// The stems of every NAME.obj in `folder` that has a NAME.pc2 beside it, sorted; none when there is no such

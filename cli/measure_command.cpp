@@ -3,8 +3,8 @@
 #include "cli/measure_options.hpp"
 #include "cli/measure_report.hpp"
 #include "cli/measured_ply.hpp"
-#include "encoder/importers/skeleton_file.hpp"
 #include "cli/watched_source.hpp"
+#include "encoder/importers/skeleton_file.hpp"
 #include "tool/frame_pattern.hpp"
 #include "tool/measured_frame.hpp"
 #include "tool/mesh_format.hpp"
@@ -13,6 +13,7 @@
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
 #ifdef TVG_HAS_PLAYER
+#include "cli/look_options.hpp"
 #include "player/render/measure_picture.hpp"
 #endif
 

@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/look_options.hpp"
 #include "cli/open_source_files.hpp"
 #include "player/playback/playback_clock.hpp"
 #include "player/window/play_window.hpp"

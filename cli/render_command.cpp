@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/look_options.hpp"
 #include "cli/open_source_files.hpp"
 #include "player/render/render_job.hpp"
 #include "player/render/render_options.hpp"

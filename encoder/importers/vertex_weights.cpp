@@ -10,7 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <regex>
+#include <string_view>
 
 namespace tvg::cli {
 
@@ -30,13 +30,24 @@ struct NumpyHeader {
   std::size_t data_offset = 0;
 };
 
-/// The value of a key in the header's dictionary, up to the comma or brace after it; empty where it is
-/// missing.
-std::string header_value(const std::string& header, const std::string& key, const char* pattern) {
-  std::smatch match;
-  return std::regex_search(header, match, std::regex("['\"]" + key + "['\"]\\s*:\\s*" + pattern))
-             ? match[1].str()
-             : "";
+/// What stands behind a key in the header's dictionary, a Python literal: of a text or a tuple what is
+/// between its quotes or brackets. Empty where it is missing.
+std::string_view header_value(std::string_view header, std::string_view key) {
+  const auto at_quote = [&](std::size_t at) {
+    return at < header.size() && (header[at] == '\'' || header[at] == '"');
+  };
+  for (std::size_t at = header.find(key); at != std::string_view::npos; at = header.find(key, at + 1)) {
+    const std::size_t behind = at + key.size();
+    if (at == 0 || !at_quote(at - 1) || !at_quote(behind)) continue;
+    const std::size_t begin = header.find_first_not_of(": ", behind + 1);
+    if (begin == std::string_view::npos) return {};
+    std::string_view value = header.substr(begin);
+    const char open = value.front();
+    if (open == '(') return value.substr(1, value.find(')') - 1);
+    if (open == '\'' || open == '"') return value.substr(1, value.find(open, 1) - 1);
+    return value.substr(0, value.find_first_of(",} "));
+  }
+  return {};
 }
 
 NumpyHeader read_numpy_header(const std::string& path, const std::string& bytes) {
@@ -47,19 +58,19 @@ NumpyHeader read_numpy_header(const std::string& path, const std::string& bytes)
   if (bytes.size() < kNumpyPreamble + length_size) fail(path, "ends in its header", ErrorCode::kTruncated);
   const char* at = bytes.data() + kNumpyPreamble;
   const std::size_t length = version == 1 ? load<std::uint16_t>(at, false) : load<std::uint32_t>(at, false);
-  // NumPy itself refuses longer ones; a regular expression over megabytes would exhaust the stack.
+  // NumPy itself refuses longer ones.
   constexpr std::size_t kLongestHeader = 10000;
   if (length > kLongestHeader) fail(path, fmt::format("its header claims {} bytes", length));
   const std::size_t begin = kNumpyPreamble + length_size;
   if (length > bytes.size() - begin) fail(path, "ends in its header", ErrorCode::kTruncated);
 
-  const std::string header = bytes.substr(begin, length);
-  const std::string type = header_value(header, "descr", "['\"]([^'\"]{1,8})['\"]");
-  const std::string fortran = header_value(header, "fortran_order", "(True|False)");
-  const std::string shape = header_value(header, "shape", "\\(([0-9, ]{0,40})\\)");
+  const std::string_view header = std::string_view(bytes).substr(begin, length);
+  const std::string_view type = header_value(header, "descr").substr(0, 8);
+  const std::string_view fortran = header_value(header, "fortran_order");
+  const std::string_view shape = header_value(header, "shape").substr(0, 40);
   if (type != "<f4" && type != "<f8") {
     fail(path, fmt::format("holds numbers of type '{}': save them as float32 or float64, little-endian",
-                           is_plain_text(type) ? type : "?"));
+                           is_plain_text(std::string(type)) ? type : "?"));
   }
   if (fortran != "False") fail(path, "is in Fortran's order: save it in C's order");
   NumpyHeader result{type == "<f8", 0, begin + length};

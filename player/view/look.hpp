@@ -6,10 +6,6 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
-
 // How things are to look, as the commands that draw have it in common.
 namespace tvg::cli {
 
@@ -41,11 +37,6 @@ struct Look {
   std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none
   Style style;
 };
-
-/// Declares --size, --camera, --shading and the like; `arguments` must outlive the parsing.
-void add_view_options(CLI::App& command, LookArguments& arguments);
-/// These, and --overlay and --ref.
-void add_look_options(CLI::App& command, LookArguments& arguments);
 
 /// Throws ToolError (kUsage) that shows what would be right.
 Look parse_look(const LookArguments& arguments);

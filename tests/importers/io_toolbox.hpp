@@ -146,8 +146,7 @@ inline Frames read_all(FrameSource& source) {
 /// The folder of real sequences; empty where it is absent.
 inline std::string data_folder() {
   const char* variable = std::getenv("TVG_DATA_DIR");
-  const auto beside_project = std::filesystem::path(__FILE__).parent_path() / "../../../shared/data";
-  const std::string folder = variable != nullptr ? variable : beside_project.string();
+  const std::string folder = variable != nullptr ? variable : "";
   return std::filesystem::is_regular_file(folder + "/crane.pc2") ? folder : "";
 }
 

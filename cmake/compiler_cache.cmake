@@ -1,0 +1,10 @@
+# Compiles through ccache where it is installed, unless a launcher is named or TVG_CCACHE is OFF.
+option(TVG_CCACHE "Compile through ccache where it is installed" ${PROJECT_IS_TOP_LEVEL})
+if(TVG_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(TVG_CCACHE_PROGRAM ccache)
+  mark_as_advanced(TVG_CCACHE_PROGRAM)
+  if(TVG_CCACHE_PROGRAM)
+    set(CMAKE_C_COMPILER_LAUNCHER ${TVG_CCACHE_PROGRAM})
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${TVG_CCACHE_PROGRAM})
+  endif()
+endif()
