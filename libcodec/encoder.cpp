@@ -56,6 +56,32 @@ StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   return limits;
 }
 
+/// One GOP on its way: what is to be encoded, and what marks it.
+struct Job {
+  GopContent gop;
+  const Mesh* mesh = nullptr;
+  const Skeleton* skeleton = nullptr;
+  Lattice lattice;
+};
+
+/// Algorithm 1, then the GOP's chunk.
+Result<std::vector<std::uint8_t>> mark_and_encode(const Job& job, const CodedMesh& coded,
+                                                  const EncodeOptions& options, const StreamLimits& limits) {
+  GopInput input{.frames = job.gop.content->frames,
+                 .first_frame = job.gop.first_frame,
+                 .lattice = job.lattice,
+                 .flags = {},
+                 .predictor = options.predictor};
+  if (job.lattice.hybrid()) {
+    const GopFrames& seen = *job.gop.marked_by;
+    Result<Measure> measured =
+        measure(*job.mesh, seen.frames, *job.skeleton, seen.joints, options.importance);
+    if (!measured) return measured.error();
+    input.flags = std::move(measured->flags);
+  }
+  return encode_gop(input, coded, limits);
+}
+
 /// GOPs on their way: encoded by up to `threads` at a time, written in order.
 class GopQueue {
  public:
@@ -63,12 +89,11 @@ class GopQueue {
            std::optional<std::uint64_t> total)
       : writer_(writer), threads_(std::max(1u, threads)), progress_(progress), total_(total) {}
 
-  Status add(GopInput input, const CodedMesh& mesh, const EncodeOptions& options,
-             const StreamLimits& limits) {
-    const auto frame_count = static_cast<std::uint32_t>(input.frames.content->frames.size());
+  Status add(Job job, const CodedMesh& mesh, const EncodeOptions& options, const StreamLimits& limits) {
+    const auto frame_count = static_cast<std::uint32_t>(job.gop.content->frames.size());
     const auto policy = threads_ > 1 ? std::launch::async : std::launch::deferred;
-    pending_.push_back({frame_count, std::async(policy, [input = std::move(input), &mesh, &options, &limits] {
-                          return encode_gop(input, mesh, options, limits);
+    pending_.push_back({frame_count, std::async(policy, [job = std::move(job), &mesh, &options, &limits] {
+                          return mark_and_encode(job, mesh, options, limits);
                         })});
     return pending_.size() < threads_ ? Status() : write_oldest();
   }
@@ -159,8 +184,11 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
                                                  options.coarse_bits, options.step);
     if (!lattice) return lattice.error();
     frames.first_frame += options.first_frame;
-    GopInput gop{std::move(frames), &source.skeleton(), *lattice};
-    if (Status status = queue.add(std::move(gop), mesh.coded, options, limits); !status.ok())
+    Job job{.gop = std::move(frames),
+            .mesh = &source.mesh(),
+            .skeleton = &source.skeleton(),
+            .lattice = *lattice};
+    if (Status status = queue.add(std::move(job), mesh.coded, options, limits); !status.ok())
       return status.error();
   }
   if (Status status = queue.finish(); !status.ok()) return status.error();

@@ -8,21 +8,16 @@
 
 #include <algorithm>
 
-#include <tvg/measure.hpp>
-
 namespace tvg {
 
 namespace {
 
-/// Algorithm 1: flags in traversal order; empty when there is one lattice only.
-Result<std::vector<std::uint8_t>> choose_flags(const GopInput& input, const CodedMesh& mesh,
-                                               const Importance& importance) {
-  if (!input.lattice.hybrid()) return std::vector<std::uint8_t>();
-  const GopFrames& seen = *input.frames.marked_by;
-  const Result<Measure> measured = measure(mesh.mesh, seen.frames, *input.skeleton, seen.joints, importance);
-  if (!measured) return measured.error();
-  std::vector<std::uint8_t> flags(measured->flags.size());
-  for (std::size_t v = 0; v < flags.size(); ++v) flags[v] = measured->flags[mesh.order[v]];
+/// Flags in traversal order; empty when there is one lattice only.
+std::vector<std::uint8_t> flags_in_traversal_order(const GopInput& input, const CodedMesh& mesh) {
+  std::vector<std::uint8_t> flags;
+  if (!input.lattice.hybrid()) return flags;
+  flags.resize(mesh.order.size());
+  for (std::size_t v = 0; v < flags.size(); ++v) flags[v] = input.flags[mesh.order[v]];
   return flags;
 }
 
@@ -44,11 +39,9 @@ void quantize_frame(const FramePositions& frame, const CodedMesh& mesh, std::spa
 }  // namespace
 
 Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedMesh& mesh,
-                                             const EncodeOptions& options, const StreamLimits& limits) {
+                                             const StreamLimits& limits) {
   const Lattice& lattice = input.lattice;
-  const Result<std::vector<std::uint8_t>> chosen = choose_flags(input, mesh, options.importance);
-  if (!chosen) return chosen.error();
-  std::vector<std::uint8_t> flags = *chosen;
+  std::vector<std::uint8_t> flags = flags_in_traversal_order(input, mesh);
   std::vector<std::uint8_t> coded_flags;
   RangeEncoder coder;
   if (lattice.hybrid()) {
@@ -58,17 +51,17 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
 
   ByteWriter gop;
   const std::vector<std::uint8_t> header = write_gop_header(
-      {input.frames.first_frame, static_cast<std::uint32_t>(input.frames.content->frames.size()),
-       static_cast<std::uint8_t>(options.predictor), static_cast<std::uint8_t>(lattice.fine_bits),
+      {input.first_frame, static_cast<std::uint32_t>(input.frames.size()),
+       static_cast<std::uint8_t>(input.predictor), static_cast<std::uint8_t>(lattice.fine_bits),
        static_cast<std::uint8_t>(lattice.coarse_bits), lattice.origin, lattice.step, coded_flags});
   write_packet(gop, 0, header);
   const std::uint32_t header_checksum = checksum(header);
 
-  FrameCoder frames(mesh.gates, flags, lattice, options.predictor);
+  FrameCoder frames(mesh.gates, flags, lattice, input.predictor);
   Hasher digest;
   std::size_t largest_packet = header.size();
   std::uint32_t packet_index = 0;
-  for (const FramePositions& frame : input.frames.content->frames) {
+  for (const FramePositions& frame : input.frames) {
     frames.next_frame();
     quantize_frame(frame, mesh, flags, lattice, frames.indices());
     frames.code(coder);
@@ -86,7 +79,7 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
     return Error{ErrorCode::kLimitExceeded,
                  "the GOP is larger than a chunk can be: use fewer frames per GOP",
                  {},
-                 input.frames.first_frame,
+                 input.first_frame,
                  "§4.1"};
   }
   return write_chunk(kGopChunk, false, gop.data());

@@ -1,26 +1,27 @@
 #pragma once
 #include "connectivity/mesh_coder.hpp"
 #include "quantization/lattice.hpp"
-#include "source/gop_reader.hpp"
 
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
-#include <tvg/encoder.hpp>
+#include <tvg/types.hpp>
 
 namespace tvg {
 
-/// One GOP and where it lies.
+/// One GOP to be encoded.
 struct GopInput {
-  GopContent frames;  ///< `first_frame` is that of the sequence the frames come from
-  const Skeleton* skeleton = nullptr;
+  std::span<const FramePositions> frames;  ///< [frame][vertex][xyz], in the order of the input mesh
+  std::uint64_t first_frame = 0;           ///< number of its first frame in the sequence it comes from
   Lattice lattice;
+  std::vector<std::uint8_t> flags;  ///< [vertex]: 1 important; not looked at unless the lattice is hybrid
+  Predictor predictor = Predictor::kElp;
 };
 
-/// Encodes one GOP to its whole chunk (format-spec §4.5): measure → flags → lattice → prediction → residuals
-/// → packets. Fails with kLimitExceeded when a packet is larger than `limits` allow.
+/// Encodes one GOP to its whole chunk (format-spec §4.5): lattice → prediction → residuals → packets. Fails
+/// with kLimitExceeded when a packet is larger than `limits` allow.
 Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedMesh& mesh,
-                                             const EncodeOptions& options, const StreamLimits& limits);
+                                             const StreamLimits& limits);
 
 }  // namespace tvg

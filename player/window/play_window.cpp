@@ -5,6 +5,7 @@
 #include "player/window/interface.hpp"
 #include "player/window/overlay_decorators.hpp"
 #include "player/window/play_figures.hpp"
+#include "player/window/window_picture.hpp"
 #include "tool/atomic_file.hpp"
 #include "tool/tool_error.hpp"
 
@@ -12,8 +13,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <epoxy/gl.h>
-#include <filesystem>
 #include <fmt/format.h>
 
 namespace tvg::cli {
@@ -32,29 +31,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-/// The pixels of the window as they are before they are presented.
-Image window_picture(int width, int height) {
-  Image image{width, height, std::vector<std::uint8_t>(4 * std::size_t(width) * std::size_t(height))};
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-  const std::size_t row = 4 * std::size_t(width);
-  for (std::size_t low = 0, high = std::size_t(height) - 1; low < high; ++low, --high) {
-    std::swap_ranges(image.pixels.begin() + static_cast<std::ptrdiff_t>(low * row),
-                     image.pixels.begin() + static_cast<std::ptrdiff_t>((low + 1) * row),
-                     image.pixels.begin() + static_cast<std::ptrdiff_t>(high * row));
-  }
-  return image;
-}
-
-/// A name that no file has yet.
-std::string free_picture_name() {
-  for (int number = 1;; ++number) {
-    std::string name = fmt::format("tvg-{:03}.png", number);
-    std::error_code ignored;
-    if (!std::filesystem::exists(name, ignored)) return name;
-  }
-}
 
 class PlayWindow {
  public:

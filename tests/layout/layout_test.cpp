@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -46,6 +47,84 @@ std::set<fs::path> decoder_files() {
     }
   }
   return reached;
+}
+
+/// Folders and files of libcodec, each of which may know those before it and no other.
+const std::vector<std::string> kLibraryOrder = {
+    "include",    "base",     "entropy", "container", "geometry",    "connectivity", "quantization",
+    "prediction", "planes",   "basis",   "modes",     "decoder",     "decoder.cpp",  "source",
+    "measure",    "simplify", "metrics", "encoder",   "encoder.cpp", "streams",      "c_api"};
+
+/// The same of the top level; those of one line do not know each other.
+const std::vector<std::set<std::string>> kTopOrder = {
+    {"libcodec"}, {"tool"}, {"encoder", "decoder", "server", "player"}, {"cli"}};
+
+std::size_t library_rank(const std::string& folder) {
+  const auto place = std::find(kLibraryOrder.begin(), kLibraryOrder.end(), folder);
+  EXPECT_NE(place, kLibraryOrder.end()) << "libcodec/" << folder << " has no place in the order";
+  return static_cast<std::size_t>(place - kLibraryOrder.begin());
+}
+
+std::size_t top_rank(const std::string& folder) {
+  for (std::size_t i = 0; i < kTopOrder.size(); ++i) {
+    if (kTopOrder[i].count(folder) > 0) return i;
+  }
+  ADD_FAILURE() << folder << "/ has no place in the order";
+  return 0;
+}
+
+/// The first part of a path: "modes" of "modes/gop_decoder.hpp".
+std::string first_part(const std::string& path) {
+  return path.substr(0, path.find('/'));
+}
+
+/// Every file below `folder` that is C or C++, relative to it.
+std::vector<std::string> sources_below(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string suffix = entry.path().extension().string();
+    if (suffix == ".cpp" || suffix == ".hpp" || suffix == ".h" || suffix == ".c")
+      files.push_back(fs::relative(entry.path(), folder).generic_string());
+  }
+  return files;
+}
+
+TEST(Layout, NoIncludeInsideTheLibraryRunsUpwards) {
+  const fs::path library = kRoot / "libcodec";
+  for (const std::string& file : sources_below(library)) {
+    const std::string text = read(library / file);
+    const std::size_t rank = library_rank(first_part(file));
+    for (const std::string& header : matches(text, "#include \"([^\"]+)\"")) {
+      EXPECT_LE(library_rank(first_part(header)), rank) << file << " includes " << header;
+    }
+    if (first_part(file) != "include") continue;
+    EXPECT_TRUE(matches(text, "#include \"([^\"]+)\"").empty()) << file << " includes what is not public";
+  }
+}
+
+TEST(Layout, NoIncludeAtTheTopRunsUpwardsOrSideways) {
+  for (const std::set<std::string>& folders : kTopOrder) {
+    for (const std::string& folder : folders) {
+      if (folder == "libcodec") continue;
+      for (const std::string& file : sources_below(kRoot / folder)) {
+        for (const std::string& header : matches(read(kRoot / folder / file), "#include \"([^\"]+)\"")) {
+          const std::string other = first_part(header);
+          EXPECT_TRUE(other == folder || top_rank(other) < top_rank(folder))
+              << folder << "/" << file << " includes " << header;
+        }
+      }
+    }
+  }
+}
+
+TEST(Layout, NoFileIsLongerThanFourHundredLines) {
+  for (const char* folder : {"libcodec", "tool", "encoder", "decoder", "server", "player", "cli", "corpus",
+                             "bench", "examples", "tests"}) {
+    for (const std::string& file : sources_below(kRoot / folder)) {
+      const std::string text = read(kRoot / folder / file);
+      EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 400) << folder << "/" << file;
+    }
+  }
 }
 
 TEST(Layout, DecoderReachesNoEncoderHeader) {
