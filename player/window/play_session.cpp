@@ -1,0 +1,184 @@
+#include "player/window/play_session.hpp"
+
+#include "player/view/image.hpp"
+#include "player/window/window_picture.hpp"
+#include "tool/atomic_file.hpp"
+#include "tool/tool_error.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace tvg::cli {
+
+namespace {
+
+constexpr double kNoticeSeconds = 3;
+
+}  // namespace
+
+PlaySession::PlaySession(const PlayOptions& options, Stopwatch watch, std::unique_ptr<StreamInput> input)
+    : options_(options),
+      watch_(watch),
+      view_{options.style, options.overlay},
+      window_(options.width, options.height, "tvg", !options.screenshot.empty(), events()) {
+  camera_.set_angles(options.angles);
+  if (input != nullptr) use(std::move(input));
+}
+
+void PlaySession::run() {
+  while (!window_.closing()) {
+    const bool happened = window_.handle_events(pause_between_looks());
+    const double now = watch_.now();
+    if (options_.seconds && now >= *options_.seconds) break;
+    if (happened) pictures_due_ = 3;  // ImGui shows what an event does one or two pictures later
+    look(now);
+    if (pictures_due_ > 0 && window_.visible()) draw(now);
+    if (finished_) break;
+  }
+  report();
+}
+
+void PlaySession::use(std::unique_ptr<StreamInput> input) {
+  name_ = input->name();
+  window_.set_title(name_ + " - tvg");
+  PlayerOptions options;
+  options.loader.ring_bytes = options_.memory_bytes;
+  options.playing = !options_.paused && options_.screenshot.empty();
+  options.looping = options_.looping;
+  options.rate = options_.rate;
+  frame_.reset();
+  mesh_.reset();
+  player_.emplace(std::move(input), options);
+  player_->set_speed(options_.speed, watch_.now());
+  if (options_.start > 0) player_->seek(options_.start, watch_.now());
+  set_overlay(view_.overlay);
+}
+
+void PlaySession::notify(std::string notice) {
+  notice_ = std::move(notice);
+  notice_until_ = watch_.now() + kNoticeSeconds;
+  pictures_due_ = 3;
+}
+
+double PlaySession::pause_between_looks() const {
+  if (pictures_due_ > 0 || !player_) return pictures_due_ > 0 ? 0 : 0.2;
+  return snapshot_.playing || snapshot_.status != PlayerSnapshot::Status::kReady ? 0.002 : 0.05;
+}
+
+void PlaySession::look(double now) {
+  if (!notice_.empty() && now > notice_until_) notice_.clear(), pictures_due_ = 1;
+  if (!player_) return;
+  std::shared_ptr<const PlayerFrame> frame = player_->update(now);
+  const bool refresh = now >= next_refresh_;
+  if (frame == frame_ && !refresh) return;
+  if (frame != frame_ && frame != nullptr) show(std::move(frame));
+  snapshot_ = player_->snapshot();
+  const bool turning = snapshot_.status == PlayerSnapshot::Status::kOpening ||
+                       snapshot_.status == PlayerSnapshot::Status::kBuffering;
+  next_refresh_ = now + (turning ? 0.05 : 0.25);
+  pictures_due_ = std::max(pictures_due_, 1);
+}
+
+void PlaySession::show(std::shared_ptr<const PlayerFrame> frame) {
+  frame_ = std::move(frame);
+  is_new_ = true;
+  if (frame_->mesh != mesh_) {
+    mesh_ = frame_->mesh;
+    renderer_.set_mesh(*mesh_);
+    fit_view();
+  }
+  const ColourMap map = view_.overlay == Overlay::kImportance ? ColourMap::kFlags : ColourMap::kViridis;
+  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, map);
+}
+
+void PlaySession::fit_view() {
+  if (frame_ == nullptr) return;
+  const Metadata metadata = player_->snapshot().stream.metadata;
+  const auto axis = metadata.find("up");
+  const UpAxis up = axis != metadata.end() && axis->second == "z" ? UpAxis::kZ : UpAxis::kY;
+  Bounds bounds;
+  bounds.extend(frame_->positions);
+  renderer_.set_scene(bounds, up);
+  bounds.pad(0.06);  // frames to come move about
+  const double aspect = static_cast<double>(window_.width()) / std::max(1, window_.height());
+  camera_.fit_closely(bounds, up, aspect);
+}
+
+void PlaySession::draw(double now) {
+  const Viewport viewport{0, 0, window_.width(), window_.height()};
+  // Without a graphics card, fewer faces keep the pace; a still picture has them all.
+  view_.style.draft = window_.draws_in_software() && snapshot_.playing;
+  if (frame_ != nullptr) {
+    renderer_.draw(camera_, view_.style, viewport);
+  } else {
+    renderer_.draw_background(view_.style, viewport);
+  }
+  window_.begin_interface();
+  follow(draw_interface(player_ ? &snapshot_ : nullptr, facts(now), view_));
+  window_.end_interface();
+  --pictures_due_;
+  if (wants_picture_) save_picture(free_picture_name());
+  if (!options_.screenshot.empty() && settled(now)) {
+    save_picture(options_.screenshot);
+    finished_ = true;
+  }
+  window_.present();
+  const double done = watch_.now();
+  figures_.add_picture(done - now);
+  if (std::exchange(is_new_, false)) figures_.add_frame(done);
+}
+
+InterfaceFacts PlaySession::facts(double now) const {
+  InterfaceFacts facts;
+  facts.name = std::filesystem::path(name_).filename().string();
+  facts.notice = notice_;
+  if (decorator_ != nullptr) facts.legend = decorator_->legend();
+  facts.draw_ms = figures_.mean_draw_ms();
+  facts.shown_per_second = figures_.shown_per_second(now);
+  facts.has_reference = !options_.reference.empty();
+  if (view_.chart && player_) {
+    constexpr std::uint64_t kAround = 90;
+    const std::uint64_t first = snapshot_.frame > kAround ? snapshot_.frame - kAround : 0;
+    facts.packets = player_->frame_bytes(first, snapshot_.frame + kAround);
+  }
+  return facts;
+}
+
+bool PlaySession::settled(double now) {
+  if (frame_ == nullptr) return false;
+  if (settled_since_ < 0) settled_since_ = now;
+  constexpr double kLongest = 3;
+  pictures_due_ = std::max(pictures_due_, 1);
+  const LoaderSnapshot& stream = snapshot_.stream;
+  const bool whole =
+      stream.state == LoaderSnapshot::State::kEnded || stream.frames_ahead + 2 >= stream.ring_capacity;
+  const bool quiet = whole && stream.has_index && now > settled_since_ + 0.3;
+  return quiet || now > settled_since_ + kLongest;
+}
+
+void PlaySession::save_picture(const std::string& path) {
+  wants_picture_ = false;
+  try {
+    write_png(path, window_picture(window_.width(), window_.height()));
+    notify("saved " + path);
+  } catch (const ToolError& error) {
+    if (path == options_.screenshot) throw;
+    notify(error.what());
+  }
+}
+
+void PlaySession::report() {
+  if (!player_) return;
+  snapshot_ = player_->snapshot();
+  if (!options_.report.empty()) {
+    AtomicFile file(options_.report);
+    file.write(figures_.report(snapshot_, name_, watch_.now()));
+    file.finish();
+  }
+  if (snapshot_.status == PlayerSnapshot::Status::kFailed && frame_ == nullptr) {
+    throw ToolError(ExitStatus::kInvalidInput, snapshot_.stream.message);
+  }
+}
+
+}  // namespace tvg::cli
