@@ -2,7 +2,7 @@
 #include "container/layout.hpp"
 #include "container/stream_writer.hpp"
 #include "modes/gop_encoder.hpp"
-#include "quantization/bounding_box.hpp"
+#include "quantization/lattice_over_encode.hpp"
 #include "source/gop_reader.hpp"
 #include "source/source_checks.hpp"
 

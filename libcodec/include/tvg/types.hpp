@@ -44,9 +44,9 @@ const char* error_name(ErrorCode code);
 struct Error {
   ErrorCode code = ErrorCode::kMalformed;
   std::string message;  ///< one sentence: what is wrong and, where known, what would be right
-  std::optional<std::uint64_t> byte_offset;  ///< where in the stream, counted from its first byte
-  std::optional<std::uint64_t> frame;        ///< the first frame concerned, counted from 0
-  const char* section = "";                  ///< section of format-spec/tvg.md that the bytes break, or ""
+  std::optional<std::uint64_t> byte_offset = {};  ///< where in the stream, counted from its first byte
+  std::optional<std::uint64_t> frame = {};        ///< the first frame concerned, counted from 0
+  const char* section = "";  ///< section of format-spec/tvg.md that the bytes break, or ""
 
   /// The message with code, offset, frame and section appended, on one line.
   std::string describe() const;
