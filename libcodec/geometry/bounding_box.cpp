@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <tvg/geometry.hpp>
 
@@ -17,9 +18,17 @@ void BoundingBox::extend(double x, double y, double z) {
 }
 
 void BoundingBox::extend(std::span<const float> positions) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, 3> low = {kInfinity, kInfinity, kInfinity}, high = {-kInfinity, -kInfinity, -kInfinity};
   for (std::size_t i = 0; i + 2 < positions.size(); i += 3) {
-    extend(positions[i], positions[i + 1], positions[i + 2]);
+    const float x = positions[i], y = positions[i + 1], z = positions[i + 2];
+    if (!((x - x) + (y - y) + (z - z) == 0)) continue;  // somewhere infinite or not a number
+    low = {std::min(low[0], x), std::min(low[1], y), std::min(low[2], z)};
+    high = {std::max(high[0], x), std::max(high[1], y), std::max(high[2], z)};
   }
+  if (low[0] > high[0]) return;
+  extend(low[0], low[1], low[2]);
+  extend(high[0], high[1], high[2]);
 }
 
 void BoundingBox::pad(double margin) {
