@@ -145,7 +145,7 @@ Result<MeshLayout> read_mesh(Bytes payload) {
   const std::uint8_t order = reader.u8();
   const Bytes connectivity = reader.bytes(reader.varint());
   if (!reader.ok()) return malformed("§4.3", "the mesh chunk is too short");
-  if (vertices == 0 || vertices >= 0x80000000u || faces >= 0x80000000u || order > 1) {
+  if (vertices == 0 || vertices > kMaxVertexCount || faces >= 0x80000000u || order > 1) {
     return malformed("§4.3", "the mesh's counts or flags are out of range");
   }
   if (order == 0 && reader.left() != 0) return malformed("§4.3", "bytes follow a mesh without vertex order");
@@ -183,8 +183,7 @@ Result<GopHeader> read_gop_header(Bytes packet) {
   if (mode != 0 || header.predictor > static_cast<std::uint8_t>(Predictor::kElp)) {
     return malformed("§4.5.1", "the GOP's mode or predictor is unknown");
   }
-  constexpr std::uint8_t kMaxBits = 24;
-  if (header.coarse_bits < 1 || header.coarse_bits > header.fine_bits || header.fine_bits > kMaxBits) {
+  if (header.coarse_bits < kMinBits || header.coarse_bits > header.fine_bits || header.fine_bits > kMaxBits) {
     return malformed("§4.5.1", "the GOP's bits are out of range");
   }
   const bool finite =

@@ -121,6 +121,16 @@ struct FrameRange {
 inline constexpr std::uint16_t kFormatMajor = 0;
 inline constexpr std::uint16_t kFormatMinor = 1;
 
+/// Bits of a lattice index (format-spec §7.1): predictions of 24-bit indices, residuals and all, stay within
+/// 32 bits.
+inline constexpr int kMinBits = 1;
+inline constexpr int kMaxBits = 24;
+
+/// Vertices of one mesh (format-spec §4.3): counts are written with 31 bits.
+inline constexpr std::uint32_t kMaxVertexCount = 0x7FFFFFFF;
+/// Faces of one mesh (format-spec §5.1): their half-edges, three to a face, are numbered with 32 bits.
+inline constexpr std::uint32_t kMaxFaceCount = 1u << 30;
+
 /// How frames are predicted (format-spec §7.2).
 enum class Predictor : std::uint8_t {
   kSpace = 0,  ///< the parallelogram of the gate in the same frame
