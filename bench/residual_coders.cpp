@@ -3,7 +3,7 @@
 #include "corpus/corpus.hpp"
 #include "entropy/range_coder.hpp"
 #include "planes/frame_coder.hpp"
-#include "quantization/bounding_box.hpp"
+#include "quantization/lattice_over_encode.hpp"
 
 #include <array>
 #include <benchmark/benchmark.h>

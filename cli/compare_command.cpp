@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -30,11 +29,6 @@ struct CompareArguments {
   bool json = false;
   bool quiet = false;
 };
-
-bool is_cache(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension().string();
-  return suffix == ".pc2" || suffix == ".mdd";
-}
 
 /// The rate a scene is sampled at unless --fps says it: that of the stream it is compared with.
 std::string rate_of(const FrameSource& other) {
@@ -60,13 +54,13 @@ std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArg
     spec.scene.clip = arguments.clip;
     spec.scene.fps = fps;
   }
-  if (is_cache(path) && mesh.empty()) {
+  if (is_cache_file(path) && mesh.empty()) {
     throw ToolError(
         ExitStatus::kUsage,
         fmt::format("{}: a cache has no faces: name its mesh with --mesh (an OBJ, PLY, OFF or STL file)",
                     path));
   }
-  if (is_cache(path)) spec.inputs = {mesh, path};
+  if (is_cache_file(path)) spec.inputs = {mesh, path};
   return open_source(spec).source;
 }
 

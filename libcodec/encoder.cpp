@@ -1,8 +1,9 @@
+#include "base/errors.hpp"
 #include "connectivity/mesh_coder_encode.hpp"
 #include "container/metadata.hpp"
 #include "container/stream_writer.hpp"
 #include "modes/gop_encoder.hpp"
-#include "quantization/bounding_box.hpp"
+#include "quantization/lattice_over_encode.hpp"
 #include "source/gop_reader.hpp"
 #include "source/source_checks.hpp"
 
@@ -19,10 +20,6 @@
 namespace tvg {
 
 namespace {
-
-Error invalid_argument(std::string message) {
-  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
-}
 
 constexpr std::uint64_t kMaxFirstFrame = std::uint64_t{1} << 61;  // leaves room for the frames that follow
 
@@ -59,8 +56,7 @@ StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
 /// One GOP on its way: what is to be encoded, and what marks it.
 struct Job {
   GopContent gop;
-  const Mesh* mesh = nullptr;
-  const Skeleton* skeleton = nullptr;
+  const Measurer* measurer = nullptr;
   Lattice lattice;
 };
 
@@ -74,8 +70,7 @@ Result<std::vector<std::uint8_t>> mark_and_encode(const Job& job, const CodedMes
                  .predictor = options.predictor};
   if (job.lattice.hybrid()) {
     const GopFrames& seen = *job.gop.marked_by;
-    Result<Measure> measured =
-        measure(*job.mesh, seen.frames, *job.skeleton, seen.joints, options.importance);
+    Result<Measure> measured = job.measurer->measure(seen.frames, seen.joints);
     if (!measured) return measured.error();
     input.flags = std::move(measured->flags);
   }
@@ -146,7 +141,7 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
     if (!*read) break;
     box.extend(frame);
   }
-  if (!source.rewind()) return Error{ErrorCode::kIo, "the input cannot be read a second time", {}, {}, ""};
+  if (!source.rewind()) return Error{ErrorCode::kIo, "the input cannot be read a second time"};
   return std::optional(box);
 }
 
@@ -173,6 +168,7 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
   if (Status status = writer.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh.payload)); !status.ok())
     return status.error();
 
+  const Measurer measurer(source.mesh(), source.skeleton(), options.importance);
   GopQueue queue(writer, options.threads, progress, source.frame_count());
   GopReader reader(source, options.gop_frames, options.importance);
   for (;;) {
@@ -184,10 +180,7 @@ Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& op
                                                  options.coarse_bits, options.step);
     if (!lattice) return lattice.error();
     frames.first_frame += options.first_frame;
-    Job job{.gop = std::move(frames),
-            .mesh = &source.mesh(),
-            .skeleton = &source.skeleton(),
-            .lattice = *lattice};
+    Job job{.gop = std::move(frames), .measurer = &measurer, .lattice = *lattice};
     if (Status status = queue.add(std::move(job), mesh.coded, options, limits); !status.ok())
       return status.error();
   }
@@ -207,11 +200,7 @@ Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, c
   try {
     return encode_checked(source, options, sink, progress);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::kOutOfMemory,
-                 "there is not enough memory: use fewer frames per GOP or fewer threads",
-                 {},
-                 {},
-                 ""};
+    return out_of_memory("there is not enough memory: use fewer frames per GOP or fewer threads");
   }
 }
 

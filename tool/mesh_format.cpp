@@ -11,6 +11,10 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
                     [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
+bool is_cache_file(const std::string& path) {
+  return has_suffix(path, ".pc2") || has_suffix(path, ".mdd");
+}
+
 std::optional<MeshFormat> mesh_format(const std::string& path) {
   if (has_suffix(path, ".obj")) return MeshFormat::kObj;
   if (has_suffix(path, ".ply")) return MeshFormat::kPly;

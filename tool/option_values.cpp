@@ -55,7 +55,8 @@ void check_frame_range(const FrameRange& range, std::uint64_t frame_count, const
 
 BitPair parse_bits(const std::string& text) {
   const auto bits = pair_of<int>(text, ':');
-  if (!bits || bits->first < 1 || bits->first > 24 || bits->second < 1 || bits->second > bits->first) {
+  if (!bits || bits->first < kMinBits || bits->first > kMaxBits || bits->second < kMinBits ||
+      bits->second > bits->first) {
     fail_option("--bits", text,
                 "write the bits of important and of other vertices as 13:11, or one number for all; 1 to 24, "
                 "the first "

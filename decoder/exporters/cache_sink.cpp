@@ -2,11 +2,10 @@
 
 #include "decoder/exporters/bytes.hpp"
 #include "decoder/exporters/mesh_writers.hpp"
+#include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -19,20 +18,6 @@ namespace {
 
 constexpr std::uint64_t kTimesBlock = 4096;
 constexpr std::uint64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
-
-/// "30" or "30000/1001" as seconds per frame; nothing where it is not a rate.
-std::optional<double> parse_frame_time(const std::string& fps) {
-  const char* const end = fps.data() + fps.size();
-  double numerator = 0;
-  double denominator = 1;
-  std::from_chars_result parsed = std::from_chars(fps.data(), end, numerator);
-  if (parsed.ec == std::errc{} && parsed.ptr != end && *parsed.ptr == '/') {
-    parsed = std::from_chars(parsed.ptr + 1, end, denominator);
-  }
-  const double time = denominator / numerator;
-  if (parsed.ec != std::errc{} || parsed.ptr != end || !std::isfinite(time) || time <= 0) return std::nullopt;
-  return time;
-}
 
 template <class T>
 void append32(std::string& bytes, T value, bool big_endian) {
@@ -91,7 +76,7 @@ void CacheSink::begin_mesh(const Mesh& mesh, const Metadata& metadata,
   mesh_ = mesh;
   if (const auto name = metadata.find("name"); name != metadata.end()) name_ = name->second;
   if (const auto fps = metadata.find("fps"); fps != metadata.end()) {
-    seconds_per_frame_ = parse_frame_time(fps->second).value_or(1);
+    seconds_per_frame_ = 1 / parse_frame_rate(fps->second).value_or(1);
   }
   promised_ = frame_count.value_or(0);
   write_header();

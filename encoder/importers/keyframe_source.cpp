@@ -12,7 +12,6 @@
 #include <bit>
 #include <cstring>
 #include <fmt/format.h>
-#include <map>
 
 namespace tvg::cli {
 
@@ -103,15 +102,21 @@ class KeyframeSource final : public SkippableSource {
 
   /// Parts vertices that have been taken for one and lie apart in this frame.
   void split(const FramePositions& positions) {
-    std::map<std::array<std::uint32_t, 4>, std::uint32_t> known;
-    for (std::size_t vertex = 0; vertex < vertex_of_.size(); ++vertex) {
-      std::array<std::uint32_t, 4> key = {vertex_of_[vertex]};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        key[axis + 1] = std::bit_cast<std::uint32_t>(positions[3 * vertex + axis] + 0.0F);
-      }
-      vertex_of_[vertex] = known.emplace(key, static_cast<std::uint32_t>(known.size())).first->second;
-    }
-    vertex_count_ = static_cast<std::uint32_t>(known.size());
+    using Place = std::array<float, 3>;
+    const auto place = [&positions](std::uint32_t vertex) {
+      const std::size_t x = 3 * std::size_t{vertex};
+      return Place{positions[x], positions[x + 1], positions[x + 2]};
+    };
+    const auto hash = [&](std::uint32_t vertex) {
+      std::uint64_t mixed = mix_hash(0, vertex_of_[vertex]);
+      for (const float x : place(vertex)) mixed = mix_hash(mixed, std::bit_cast<std::uint32_t>(x + 0.0F));
+      return mixed;
+    };
+    Weld weld = weld_points(vertex_of_.size(), hash, [&](std::uint32_t a, std::uint32_t b) {
+      return vertex_of_[a] == vertex_of_[b] && place(a) == place(b);
+    });
+    vertex_count_ = weld.vertex_count();
+    vertex_of_ = std::move(weld.vertex_of_point);
   }
 
   std::string path_;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <tvg/geometry.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg::cli {
@@ -40,17 +41,7 @@ void parse_stl(const std::string& file, std::string_view bytes, MeshFile& mesh);
 /// capacity is reused. STL is not welded.
 void read_mesh_file(const std::string& path, MeshFormat format, std::string& buffer, MeshFile& mesh);
 
-/// The vertices of a format without indices: corners with bit-identical positions are one vertex, in order of
-/// first appearance.
-struct Weld {
-  std::vector<std::uint32_t> vertex_of_corner;  ///< [corner]
-  std::uint32_t vertex_count = 0;
-};
-
-/// Finds the vertices in the positions of an unwelded mesh ([corner][xyz]).
-Weld find_weld(const std::vector<float>& corner_positions);
-
-/// Replaces the corners of an unwelded mesh by the vertices of `weld`, which has as many corners. Returns the
+/// Replaces the corners of an unwelded mesh by the vertices of `weld`, which has as many points. Returns the
 /// first corner that lies elsewhere than an earlier corner of the same vertex; nothing where there is none.
 std::optional<std::size_t> apply_weld(const Weld& weld, MeshFile& mesh);
 

@@ -17,10 +17,10 @@ WeldedMesh read_welded_mesh(const std::string& path) {
                                        welded.mesh.polygons, welded.mesh.polygon_triangles));
   }
   if (welded.format == MeshFormat::kStl) {
-    welded.weld = find_weld(welded.mesh.positions);
+    welded.weld = weld_positions(welded.mesh.positions);
     static_cast<void>(apply_weld(welded.weld, welded.mesh));
     welded.notes.push_back(fmt::format("{}: {} corners welded to {} vertices", path,
-                                       welded.weld.vertex_of_corner.size(), welded.weld.vertex_count));
+                                       welded.weld.vertex_of_point.size(), welded.weld.vertex_count()));
   }
   return welded;
 }
@@ -75,7 +75,7 @@ void MeshSequenceSource::read_positions(const std::string& path, std::span<float
 }
 
 void MeshSequenceSource::weld_frame(const std::string& path) {
-  const std::size_t corners = first_.weld.vertex_of_corner.size();
+  const std::size_t corners = first_.weld.vertex_of_point.size();
   if (current_.vertex_count() != corners) {
     fail_changed(
         path, fmt::format("has {} triangles where {} has {}", current_.faces.size(), files_[0], corners / 3));

@@ -7,6 +7,7 @@
 #include "encoder/importers/scene_source.hpp"
 #include "encoder/importers/skeleton_source.hpp"
 #include "tool/frame_pattern.hpp"
+#include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
 
 #include <filesystem>
@@ -24,7 +25,7 @@ constexpr const char* kKnownFormats =
     "walk_%04d.obj";
 
 bool is_cache(const std::string& path) {
-  return path == "-" || has_suffix(path, ".pc2") || has_suffix(path, ".mdd");
+  return path == "-" || is_cache_file(path);
 }
 
 [[noreturn]] void fail_usage(const std::string& message) {

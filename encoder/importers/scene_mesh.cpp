@@ -1,39 +1,41 @@
 #include "encoder/importers/scene_mesh.hpp"
 
-#include <cstring>
-#include <unordered_map>
+#include <algorithm>
+#include <bit>
+
+#include <tvg/geometry.hpp>
 
 namespace tvg::cli {
 
 namespace {
 
-/// Bits that are equal where values are: both zeros are one.
-void append_bits(std::string& key, double value) {
-  const double unsigned_zero = value == 0 ? 0.0 : value;
-  char bytes[sizeof(double)];
-  std::memcpy(bytes, &unsigned_zero, sizeof bytes);
-  key.append(bytes, sizeof bytes);
+/// The same for equal values: both zeros are one.
+std::uint64_t mix_value(std::uint64_t hash, double value) {
+  return mix_hash(hash, std::bit_cast<std::uint64_t>(value + 0.0));
 }
 
-void append_bits(std::string& key, std::uint32_t value) {
-  char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof bytes);
-  key.append(bytes, sizeof bytes);
-}
-
-void make_key(const SceneMesh& mesh, std::size_t vertex, std::string& key) {
-  key.clear();
-  for (const double value : mesh.positions[vertex]) append_bits(key, value);
-  const auto influences = mesh.influences_of(vertex);
-  append_bits(key, static_cast<std::uint32_t>(influences.size()));
-  for (const Influence& influence : influences) {
-    append_bits(key, influence.carrier);
-    append_bits(key, influence.weight);
+std::uint64_t hash_of(const SceneMesh& mesh, std::size_t vertex) {
+  std::uint64_t hash = 0;
+  for (const double value : mesh.positions[vertex]) hash = mix_value(hash, value);
+  for (const Influence& influence : mesh.influences_of(vertex)) {
+    hash = mix_value(mix_hash(hash, influence.carrier), influence.weight);
   }
   for (const MorphDelta& morph : mesh.morphs_of(vertex)) {
-    append_bits(key, morph.slot);
-    for (const double value : morph.delta) append_bits(key, value);
+    hash = mix_hash(hash, morph.slot);
+    for (const double value : morph.delta) hash = mix_value(hash, value);
   }
+  return hash;
+}
+
+bool are_equal(const SceneMesh& mesh, std::size_t a, std::size_t b) {
+  return mesh.positions[a] == mesh.positions[b] &&
+         std::ranges::equal(mesh.influences_of(a), mesh.influences_of(b),
+                            [](const Influence& x, const Influence& y) {
+                              return x.carrier == y.carrier && x.weight == y.weight;
+                            }) &&
+         std::ranges::equal(
+             mesh.morphs_of(a), mesh.morphs_of(b),
+             [](const MorphDelta& x, const MorphDelta& y) { return x.slot == y.slot && x.delta == y.delta; });
 }
 
 }  // namespace
@@ -65,18 +67,13 @@ void SceneMesh::pose(const std::vector<Transform>& global, const std::vector<dou
 }
 
 void weld(SceneMesh& mesh) {
-  std::unordered_map<std::string, std::uint32_t> known;
-  std::vector<std::uint32_t> new_index(mesh.positions.size());
+  const Weld found = weld_points(
+      mesh.positions.size(), [&mesh](std::size_t vertex) { return hash_of(mesh, vertex); },
+      [&mesh](std::size_t a, std::size_t b) { return are_equal(mesh, a, b); });
   SceneMesh welded;
   welded.influence_begin = {0};
   welded.morph_begin = {0};
-  std::string key;
-  for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-    make_key(mesh, vertex, key);
-    const auto next = static_cast<std::uint32_t>(welded.positions.size());
-    const auto [entry, is_new] = known.emplace(key, next);
-    new_index[vertex] = entry->second;
-    if (!is_new) continue;
+  for (const std::uint32_t vertex : found.first_point) {
     welded.positions.push_back(mesh.positions[vertex]);
     for (const Influence& influence : mesh.influences_of(vertex)) welded.influences.push_back(influence);
     for (const MorphDelta& morph : mesh.morphs_of(vertex)) welded.morphs.push_back(morph);
@@ -84,9 +81,9 @@ void weld(SceneMesh& mesh) {
     welded.morph_begin.push_back(welded.morphs.size());
   }
   for (Face& face : mesh.mesh.faces) {
-    for (std::uint32_t& index : face) index = new_index[index];
+    for (std::uint32_t& index : face) index = found.vertex_of_point[index];
   }
-  mesh.mesh.vertex_count = static_cast<std::uint32_t>(welded.positions.size());
+  mesh.mesh.vertex_count = found.vertex_count();
   mesh.positions = std::move(welded.positions);
   mesh.influences = std::move(welded.influences);
   mesh.influence_begin = std::move(welded.influence_begin);

@@ -1,6 +1,7 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
 #include "tool/frame_pattern.hpp"
+#include "tool/mesh_format.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -137,7 +138,7 @@ std::vector<std::string> find_folder_files(const std::string& folder) {
   const std::string prefix = folder.ends_with('/') ? folder : folder + "/";
   std::vector<std::string> names;
   for (std::string& name : file_names(folder)) {
-    if (has_suffix(name, ".pc2") || has_suffix(name, ".mdd")) {
+    if (is_cache_file(name)) {
       throw ImportError(
           ErrorCode::kInvalidInput,
           fmt::format("folder {} holds a cache, {}: name the mesh and the cache instead of the folder",

@@ -30,9 +30,6 @@ struct Connectivity {
   bool operator==(const Connectivity&) const = default;
 };
 
-/// The largest number of faces of one mesh: half-edges are numbered in 32 bits.
-inline constexpr std::uint32_t kMaxFaceCount = 1u << 30;
-
 /// Vertices and faces together that one byte of a connectivity stream may stand for (format-spec §5.1).
 inline constexpr std::uint64_t kMaxElementsPerByte = 128;
 

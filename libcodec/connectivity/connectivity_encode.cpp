@@ -82,25 +82,25 @@ class MeshGuide {
   std::uint32_t next_root_ = 0;
 };
 
-EncodedConnectivity encode(const Mesh& mesh, bool padded) {
+}  // namespace
+
+EncodedConnectivity encode_connectivity(const Mesh& mesh) {
   EncodedConnectivity result;
   RangeEncoder coder;
   MeshGuide guide(mesh);
   Traversal traversal(coder, guide, mesh.vertex_count, static_cast<std::uint32_t>(mesh.faces.size()),
                       result.connectivity);
   traversal.run();
-  code_padding(coder, mesh.vertex_count, mesh.faces.size(), padded);
-  result.bytes = coder.finish();
   result.order = guide.take_order();
-  return result;
-}
 
-}  // namespace
-
-EncodedConnectivity encode_connectivity(const Mesh& mesh) {
-  EncodedConnectivity result = encode(mesh, false);
   const std::uint64_t elements = std::uint64_t{mesh.vertex_count} + mesh.faces.size();
-  if (elements > kMaxElementsPerByte * result.bytes.size()) result = encode(mesh, true);
+  RangeEncoder padded = coder;
+  code_padding(coder, mesh.vertex_count, mesh.faces.size(), false);
+  result.bytes = coder.finish();
+  if (elements > kMaxElementsPerByte * result.bytes.size()) {
+    code_padding(padded, mesh.vertex_count, mesh.faces.size(), true);
+    result.bytes = padded.finish();
+  }
   return result;
 }
 

@@ -37,8 +37,7 @@ Result<GopHeader> read_gop_header(Bytes packet) {
   if (mode != 0 || header.predictor > static_cast<std::uint8_t>(Predictor::kElp)) {
     return malformed("§4.5.1", "the GOP's mode or predictor is unknown");
   }
-  constexpr std::uint8_t kMaxBits = 24;
-  if (header.coarse_bits < 1 || header.coarse_bits > header.fine_bits || header.fine_bits > kMaxBits) {
+  if (header.coarse_bits < kMinBits || header.coarse_bits > header.fine_bits || header.fine_bits > kMaxBits) {
     return malformed("§4.5.1", "the GOP's bits are out of range");
   }
   const bool finite =

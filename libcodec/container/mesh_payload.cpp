@@ -23,7 +23,7 @@ Result<MeshLayout> read_mesh(Bytes payload) {
   const std::uint8_t order = reader.u8();
   const Bytes connectivity = reader.bytes(reader.varint());
   if (!reader.ok()) return malformed("§4.3", "the mesh chunk is too short");
-  if (vertices == 0 || vertices >= 0x80000000u || faces >= 0x80000000u || order > 1) {
+  if (vertices == 0 || vertices > kMaxVertexCount || faces >= 0x80000000u || order > 1) {
     return malformed("§4.3", "the mesh's counts or flags are out of range");
   }
   if (order == 0 && reader.left() != 0) return malformed("§4.3", "bytes follow a mesh without vertex order");

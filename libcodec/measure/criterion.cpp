@@ -36,7 +36,7 @@ const Criterion* find_criterion(std::string_view name) {
 }
 
 std::vector<double> cost(std::span<const WeightedCriterion> terms, const CriterionInput& input) {
-  std::vector<double> total(input.mesh.vertex_count, 0.0);
+  std::vector<double> total(input.mesh().vertex_count, 0.0);
   for (const WeightedCriterion& term : terms) {
     const std::vector<double> values = term.criterion->evaluate(input);
     for (std::size_t v = 0; v < total.size(); ++v) total[v] += term.weight * values[v];

@@ -1,4 +1,6 @@
 #pragma once
+#include "geometry/topology.hpp"
+
 #include <span>
 #include <string_view>
 #include <vector>
@@ -9,11 +11,14 @@
 namespace tvg {
 
 struct CriterionInput {
-  const Mesh& mesh;
+  const Topology& topology;                ///< of the mesh, shared by all criteria and GOPs
   std::span<const FramePositions> frames;  ///< those measured, [frame][vertex][xyz]; at least one
   const Importance& options;
   const Skeleton& skeleton;
   std::span<const std::vector<float>> joints;  ///< [frame][joint][xyz]; empty without `uses_skeleton`
+  std::span<const JointMotion> motions;        ///< [joint]; empty without `uses_skeleton`
+
+  const Mesh& mesh() const { return topology.mesh(); }
 };
 
 struct Criterion {

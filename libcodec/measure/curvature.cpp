@@ -3,25 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numeric>
 
 namespace tvg {
-
-OneRings::OneRings(const Mesh& mesh) : begin_(mesh.vertex_count + std::size_t{1}, 0) {
-  const auto for_each_corner = [&mesh](auto&& visit) {
-    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-      const auto [a, b, c] = mesh.faces[f];
-      visit(a, f);
-      if (b != a) visit(b, f);
-      if (c != a && c != b) visit(c, f);
-    }
-  };
-  for_each_corner([this](std::uint32_t v, std::uint32_t) { ++begin_[v + std::size_t{1}]; });
-  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  faces_.resize(begin_.back());
-  std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-  for_each_corner([&](std::uint32_t v, std::uint32_t f) { faces_[next[v]++] = f; });
-}
 
 std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
                                      std::span<const float> positions) {
@@ -61,7 +44,7 @@ std::vector<double> vertex_curvature(const Mesh& mesh, const OneRings& rings,
 
 std::vector<double> change_and_mean(const CriterionInput& input,
                                     std::span<const std::vector<double>> curvature) {
-  const std::size_t vertex_count = input.mesh.vertex_count;
+  const std::size_t vertex_count = input.mesh().vertex_count;
   const auto frame_count = static_cast<double>(curvature.size());
   std::vector<double> mean(vertex_count, 0.0);
   for (const std::vector<double>& frame : curvature) {
@@ -80,10 +63,9 @@ std::vector<double> change_and_mean(const CriterionInput& input,
 }
 
 std::vector<double> curvature_criterion(const CriterionInput& input) {
-  const OneRings rings(input.mesh);
   std::vector<std::vector<double>> curvature;
   for (const FramePositions& frame : input.frames) {
-    curvature.push_back(vertex_curvature(input.mesh, rings, frame));
+    curvature.push_back(vertex_curvature(input.mesh(), input.topology.rings(), frame));
   }
   return change_and_mean(input, curvature);
 }

@@ -4,21 +4,9 @@
 #include <span>
 #include <vector>
 
+#include <tvg/geometry.hpp>
+
 namespace tvg {
-
-/// Which faces meet at each vertex. A face counts once at each of its distinct corners.
-class OneRings {
- public:
-  explicit OneRings(const Mesh& mesh);
-
-  std::span<const std::uint32_t> faces_at(std::uint32_t vertex) const {
-    return std::span(faces_).subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
-  }
-
- private:
-  std::vector<std::size_t> begin_;  ///< [vertex], and one past the last
-  std::vector<std::uint32_t> faces_;
-};
 
 /// Curvature at every vertex of one frame (the paper's Eq. 1), in [0, 1]: the area-weighted mean over the
 /// faces f around vertex i of (1 - n_i . n_f) / 2, with n_i the normalized area-weighted sum of their

@@ -1,6 +1,5 @@
 #pragma once
 #include "measure/criterion.hpp"
-#include "measure/curvature.hpp"
 
 #include <span>
 #include <vector>
@@ -15,8 +14,7 @@ namespace tvg {
 /// Where the faces around a vertex are not one closed fan (boundaries, non-manifold vertices), K has no
 /// meaning and the sum over edges points along the surface too: there K = 0 and only the part of the sum
 /// along the ring's normal counts. Faces without area add nothing; a vertex without any other has 0.
-std::vector<double> vertex_curvature_norm(const Mesh& mesh, const OneRings& rings,
-                                          std::span<const float> positions);
+std::vector<double> vertex_curvature_norm(const Topology& topology, std::span<const float> positions);
 
 /// As CURV (Eq. 3) does with its curvature: alpha * mean absolute deviation + (1 - alpha) * mean over the
 /// frames. The norm is multiplied by the diagonal of the box around the frames, so that the unit of length

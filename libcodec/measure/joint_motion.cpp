@@ -1,5 +1,7 @@
 #include "measure/joint_motion.hpp"
 
+#include "base/errors.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -91,10 +93,6 @@ class FirstNearest {
   std::uint32_t joint_ = 0;
 };
 
-Error invalid_argument(std::string message) {
-  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
-}
-
 }  // namespace
 
 std::vector<double> joint_angle_sums(const Skeleton& skeleton, std::span<const std::vector<float>> joints) {
@@ -141,14 +139,13 @@ std::vector<std::uint32_t> nearest_joints(std::span<const float> positions, std:
 }
 
 std::vector<double> skeleton_criterion(const CriterionInput& input) {
-  const std::vector<JointMotion> motions = judge_joints(
-      joint_angle_sums(input.skeleton, input.joints), input.joints.size() - 1, input.options.skel_threshold);
   const std::vector<std::uint32_t> joint_of = input.options.skel_region == JointRegion::kHeaviest
                                                   ? input.skeleton.heaviest_joint
                                                   : nearest_joints(input.frames[0], input.joints[0]);
   const double alpha = input.options.skel_alpha;
   std::vector<double> value(joint_of.size());
-  for (std::size_t v = 0; v < value.size(); ++v) value[v] = motions[joint_of[v]].dynamic ? alpha : 1 - alpha;
+  for (std::size_t v = 0; v < value.size(); ++v)
+    value[v] = input.motions[joint_of[v]].dynamic ? alpha : 1 - alpha;
   return value;
 }
 

@@ -1,3 +1,5 @@
+#include "base/errors.hpp"
+#include "geometry/topology.hpp"
 #include "measure/criterion.hpp"
 #include "measure/importance.hpp"
 #include "measure/joint_motion.hpp"
@@ -11,10 +13,6 @@
 namespace tvg {
 
 namespace {
-
-Error invalid_argument(std::string message) {
-  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
-}
 
 std::string known_names() {
   std::string names;
@@ -86,22 +84,33 @@ Status check_importance(const Importance& importance, const Mesh& mesh, const Sk
   return {};
 }
 
-Result<Measure> measure(const Mesh& mesh, std::span<const FramePositions> frames, const Skeleton& skeleton,
-                        std::span<const std::vector<float>> joints, const Importance& importance) {
-  const bool with_joints = uses_skeleton(importance);
-  if (Status status = check_importance(importance, mesh, skeleton); !status.ok()) return status.error();
-  if (Status status = check_sizes(mesh, frames, skeleton, joints, with_joints); !status.ok())
+Measurer::Measurer(const Mesh& mesh, const Skeleton& skeleton, const Importance& importance)
+    : topology_(std::make_unique<Topology>(mesh)), skeleton_(skeleton), importance_(importance) {}
+Measurer::~Measurer() = default;
+
+Result<Measure> Measurer::measure(std::span<const FramePositions> frames,
+                                  std::span<const std::vector<float>> joints) const {
+  const Mesh& mesh = topology_->mesh();
+  const bool with_joints = uses_skeleton(importance_);
+  if (Status status = check_importance(importance_, mesh, skeleton_); !status.ok()) return status.error();
+  if (Status status = check_sizes(mesh, frames, skeleton_, joints, with_joints); !status.ok())
     return status.error();
   Measure result;
-  result.cost = cost(terms_of(importance), {mesh, frames, importance, skeleton, joints});
-  smooth_cost(mesh, importance.smoothing, result.cost);
-  result.flags = importance.threshold ? flag_above(result.cost, *importance.threshold)
-                                      : flag_highest_share(result.cost, importance.share);
   if (with_joints) {
     result.joints =
-        judge_joints(joint_angle_sums(skeleton, joints), joints.size() - 1, importance.skel_threshold);
+        judge_joints(joint_angle_sums(skeleton_, joints), joints.size() - 1, importance_.skel_threshold);
   }
+  result.cost =
+      cost(terms_of(importance_), {*topology_, frames, importance_, skeleton_, joints, result.joints});
+  smooth_cost(mesh, importance_.smoothing, result.cost);
+  result.flags = importance_.threshold ? flag_above(result.cost, *importance_.threshold)
+                                       : flag_highest_share(result.cost, importance_.share);
   return result;
+}
+
+Result<Measure> measure(const Mesh& mesh, std::span<const FramePositions> frames, const Skeleton& skeleton,
+                        std::span<const std::vector<float>> joints, const Importance& importance) {
+  return Measurer(mesh, skeleton, importance).measure(frames, joints);
 }
 
 }  // namespace tvg

@@ -1,14 +1,12 @@
 #include "measure/velocity.hpp"
 
-#include "measure/frames_diagonal.hpp"
-
 #include <cmath>
 
 namespace tvg {
 
 std::vector<double> velocity_criterion(const CriterionInput& input) {
-  std::vector<double> speed(input.mesh.vertex_count, 0.0);
-  const double diagonal = frames_diagonal(input.frames);
+  std::vector<double> speed(input.mesh().vertex_count, 0.0);
+  const double diagonal = box_around(input.frames).diagonal();
   if (!(diagonal > 0) || input.frames.size() < 2) return speed;
   const double scale = 1 / (diagonal * static_cast<double>(input.frames.size() - 1));
   for (std::size_t f = 1; f < input.frames.size(); ++f) {

@@ -1,6 +1,6 @@
 #include "measure/viewpoint_distance.hpp"
 
-#include "measure/frames_diagonal.hpp"
+#include "base/errors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace tvg {
 
 std::vector<double> viewpoint_distance_criterion(const CriterionInput& input) {
-  std::vector<double> distance(input.mesh.vertex_count, 0.0);
-  const double diagonal = frames_diagonal(input.frames);
+  std::vector<double> distance(input.mesh().vertex_count, 0.0);
+  const double diagonal = box_around(input.frames).diagonal();
   if (!(diagonal > 0)) return distance;
   const double scale = 1 / (diagonal * static_cast<double>(input.frames.size()));
   const auto& [x, y, z] = input.options.viewpoint;
@@ -25,7 +25,7 @@ Status check_viewpoint(const Importance& importance, const Mesh&, const Skeleton
   const bool finite = std::all_of(importance.viewpoint.begin(), importance.viewpoint.end(),
                                   [](double x) { return std::isfinite(x); });
   if (finite) return {};
-  return Error{ErrorCode::kInvalidArgument, "the viewpoint must be a place in the mesh's units", {}, {}, ""};
+  return invalid_argument("the viewpoint must be a place in the mesh's units");
 }
 
 }  // namespace tvg

@@ -1,3 +1,4 @@
+#include "base/errors.hpp"
 #include "metrics/hausdorff.hpp"
 #include "metrics/sted.hpp"
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <tvg/geometry.hpp>
 #include <tvg/metrics.hpp>
 
 namespace tvg {
@@ -19,14 +21,6 @@ using Eigen::Vector3d;
 double ratio(double value, double divisor) {
   if (value == 0) return 0;
   return divisor > 0 ? value / divisor : std::numeric_limits<double>::infinity();
-}
-
-Error failure(ErrorCode code, std::string message, std::uint64_t frame) {
-  Error error;
-  error.code = code;
-  error.message = std::move(message);
-  error.frame = frame;
-  return error;
 }
 
 void load(std::span<const float> values, Points& points) {
@@ -53,6 +47,7 @@ class SequenceComparison::Accumulator {
   Status add_frame(std::span<const float> original, std::span<const float> decoded) {
     Status checked = check(original, decoded);
     if (!checked.ok()) return checked;
+    box_.extend(original);
     load(original, original_);
     load(decoded, decoded_);
     add_distances();
@@ -72,28 +67,24 @@ class SequenceComparison::Accumulator {
   Status check(std::span<const float> original, std::span<const float> decoded) const {
     const std::size_t expected = std::size_t{3} * mesh_.vertex_count;
     if (settings_.hausdorff_stride == 0) {
-      return failure(ErrorCode::kInvalidArgument, "the stride of the Hausdorff distance must be at least 1",
-                     frames_);
+      return at_frame(frames_, invalid_argument("the stride of the Hausdorff distance must be at least 1"));
     }
     if (original.size() != expected || decoded.size() != expected) {
-      return failure(ErrorCode::kInvalidArgument,
-                     "a frame of this mesh has " + std::to_string(expected) + " coordinates; got " +
-                         std::to_string(original.size()) + " (original) and " +
-                         std::to_string(decoded.size()) + " (decoded)",
-                     frames_);
+      return at_frame(frames_,
+                      invalid_argument("a frame of this mesh has " + std::to_string(expected) +
+                                       " coordinates; got " + std::to_string(original.size()) +
+                                       " (original) and " + std::to_string(decoded.size()) + " (decoded)"));
     }
     if (!mesh_is_valid_) {
-      return failure(ErrorCode::kInvalidInput, "a face of the mesh names a vertex that does not exist",
-                     frames_);
+      return at_frame(frames_, invalid_input("a face of the mesh names a vertex that does not exist"));
     }
     const auto is_finite = [](float value) { return std::isfinite(value); };
     for (const auto& frame : {original, decoded}) {
       const auto bad = std::find_if_not(frame.begin(), frame.end(), is_finite);
       if (bad == frame.end()) continue;
       const auto vertex = static_cast<std::uint64_t>(bad - frame.begin()) / 3;
-      return failure(
-          ErrorCode::kInvalidInput,
-          "vertex " + std::to_string(vertex) + " has a coordinate that is infinite or not a number", frames_);
+      return at_frame(frames_, invalid_input("vertex " + std::to_string(vertex) +
+                                             " has a coordinate that is infinite or not a number"));
     }
     return {};
   }
@@ -110,8 +101,6 @@ class SequenceComparison::Accumulator {
         worst_frame_ = frames_;
         worst_vertex_ = v;
       }
-      box_low_ = box_low_.cwiseMin(original_[v]);
-      box_high_ = box_high_.cwiseMax(original_[v]);
     }
   }
 
@@ -170,8 +159,7 @@ class SequenceComparison::Accumulator {
   double sum_quadric_ = 0, max_quadric_ = 0;
   double forward_ = 0, backward_ = 0;
   std::uint64_t hausdorff_frames_ = 0;
-  Vector3d box_low_ = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d box_high_ = Vector3d::Constant(-std::numeric_limits<double>::infinity());
+  BoundingBox box_;
 };
 
 ComparisonReport SequenceComparison::Accumulator::report() const {
@@ -182,9 +170,8 @@ ComparisonReport SequenceComparison::Accumulator::report() const {
   const double points = static_cast<double>(frames_) * mesh_.vertex_count;
   if (points == 0) return report;
 
-  const Vector3d sides = box_high_ - box_low_;
-  report.extent = sides.maxCoeff();
-  report.diagonal = sides.norm();
+  report.extent = box_.largest_extent();
+  report.diagonal = box_.diagonal();
   report.max_coordinate_error = max_coordinate_;
   report.max_vertex_distance = std::sqrt(max_squared_);
   report.rms_coordinate_error = std::sqrt(sum_squared_ / (3 * points));

@@ -1,8 +1,11 @@
 #include "metrics/sted.hpp"
 
+#include "geometry/half_edges_encode.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include <tvg/geometry.hpp>
 
 namespace tvg {
 
@@ -32,57 +35,45 @@ double relative_error(double original, double decoded) {
   return original > 0 ? std::abs(original - decoded) / original : 0;
 }
 
-double first_frame_diagonal(const Points& points) {
-  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Vector3d high = -low;
-  for (const Vector3d& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  return points.empty() ? 0 : (high - low).norm();
-}
-
-std::array<std::uint32_t, 2> edge_of(const Face& face, std::size_t k) {
-  const std::uint32_t a = face[k], b = face[(k + 1) % 3];
-  return {std::min(a, b), std::max(a, b)};
+double diagonal_of(const Points& points) {
+  BoundingBox box;
+  for (const Vector3d& point : points) box.extend(point[0], point[1], point[2]);
+  return box.diagonal();
 }
 
 }  // namespace
 
-EdgeDifference::EdgeDifference(const Mesh& mesh) : begin_(mesh.vertex_count + std::size_t{1}, 0) {
-  for (const Face& face : mesh.faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto edge = edge_of(face, k);
-      if (edge[0] != edge[1]) edges_.push_back(edge);
-    }
+EdgeDifference::EdgeDifference(const Mesh& mesh) {
+  std::vector<std::uint32_t> edge_of(3 * mesh.faces.size(), kNoHalfEdge);  // [half-edge]
+  for (const HalfEdge& half_edge : half_edges_by_edge(mesh)) {
+    const std::array<std::uint32_t, 2> ends = {half_edge.low, half_edge.high};
+    if (edges_.empty() || edges_.back() != ends) edges_.push_back(ends);
+    edge_of[half_edge.id] = static_cast<std::uint32_t>(edges_.size() - 1);
   }
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-
-  std::vector<std::array<std::uint32_t, 2>> uses;  // vertex, edge
-  for (const Face& face : mesh.faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto edge = edge_of(face, k);
-      if (edge[0] == edge[1]) continue;
-      const auto place = std::lower_bound(edges_.begin(), edges_.end(), edge);
-      for (const std::uint32_t v : face)
-        uses.push_back({v, static_cast<std::uint32_t>(place - edges_.begin())});
-    }
-  }
-  std::sort(uses.begin(), uses.end());
-  uses.erase(std::unique(uses.begin(), uses.end()), uses.end());
-  for (const auto& [vertex, edge] : uses) {
-    ++begin_[vertex + std::size_t{1}];
-    vertex_edges_.push_back(edge);
-  }
-  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
   length_.resize(edges_.size());
   error_.resize(edges_.size());
+
+  const OneRings rings(mesh);
+  std::vector<std::uint32_t> around;
+  begin_.push_back(0);
+  for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    around.clear();
+    for (const std::uint32_t f : rings.faces_at(v)) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t edge = edge_of[3 * std::size_t{f} + c];
+        if (edge != kNoHalfEdge) around.push_back(edge);
+      }
+    }
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    vertex_edges_.insert(vertex_edges_.end(), around.begin(), around.end());
+    begin_.push_back(vertex_edges_.size());
+  }
 }
 
 void EdgeDifference::add_frame(const Points& original, const Points& decoded) {
   if (frames_ == 0) {
-    const double diagonal = first_frame_diagonal(original);
+    const double diagonal = diagonal_of(original);
     frame_length_ = kStedFrameLength * (diagonal > 0 ? diagonal : 1);
   } else {
     add_temporal(original, decoded);

@@ -4,11 +4,10 @@
 #include <cstdint>
 #include <limits>
 
+#include <tvg/types.hpp>
+
 // The integer lattice positions are quantized to (format-spec §7.1), in one or two nested resolutions.
 namespace tvg {
-
-inline constexpr int kMinBits = 1;
-inline constexpr int kMaxBits = 24;
 
 /// A cubic lattice over a bounding box: cell i of an axis covers [origin + i step, origin + (i + 1) step).
 struct Lattice {

@@ -1,5 +1,6 @@
 #include "source/gop_reader.hpp"
 
+#include "base/errors.hpp"
 #include "source/source_checks.hpp"
 
 namespace tvg {
@@ -34,7 +35,7 @@ Result<std::optional<GopContent>> GopReader::next() {
     if (!joints) return joints.error();
     frames->joints.push_back(std::move(*joints));
   }
-  if (frames_read_ == 0) return Error{ErrorCode::kInvalidInput, "the sequence has no frames", {}, {}, ""};
+  if (frames_read_ == 0) return invalid_input("the sequence has no frames");
   if (frames->frames.empty()) return std::optional<GopContent>();
   gop.content = gop.marked_by = frames;
   if (importance_.low_delay) {

@@ -1,11 +1,10 @@
 #pragma once
-#include "quantization/bounding_box.hpp"
-
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include <tvg/geometry.hpp>
 #include <tvg/measure.hpp>
 #include <tvg/source.hpp>
 

@@ -1,5 +1,7 @@
 #include "source/source_checks.hpp"
 
+#include "base/errors.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,18 +9,15 @@
 namespace tvg {
 
 Status check_mesh(const Mesh& mesh) {
-  const auto invalid = [](std::string message) {
-    return Error{ErrorCode::kInvalidInput, std::move(message), {}, {}, ""};
-  };
-  if (mesh.vertex_count == 0) return invalid("the mesh has no vertices");
-  if (mesh.vertex_count >= 0x80000000u || mesh.faces.size() >= 0x2AAAAAAAu) {
-    return invalid("the mesh has more vertices or faces than a stream can hold");
+  if (mesh.vertex_count == 0) return invalid_input("the mesh has no vertices");
+  if (mesh.vertex_count > kMaxVertexCount || mesh.faces.size() > kMaxFaceCount) {
+    return invalid_input("the mesh has more vertices or faces than a stream can hold");
   }
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     for (const std::uint32_t corner : mesh.faces[f]) {
       if (corner >= mesh.vertex_count) {
-        return invalid("face " + std::to_string(f) + " refers to vertex " + std::to_string(corner) +
-                       ", the mesh has " + std::to_string(mesh.vertex_count));
+        return invalid_input("face " + std::to_string(f) + " refers to vertex " + std::to_string(corner) +
+                             ", the mesh has " + std::to_string(mesh.vertex_count));
       }
     }
   }
@@ -31,18 +30,15 @@ Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint6
   const auto bad = std::find_if_not(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); });
   if (bad == frame.end()) return true;
   const auto i = static_cast<std::size_t>(bad - frame.begin());
-  return Error{ErrorCode::kInvalidInput,
-               "vertex " + std::to_string(i / 3) + " has a coordinate that is infinite or not a number",
-               {},
-               number,
-               ""};
+  return at_frame(number, invalid_input("vertex " + std::to_string(i / 3) +
+                                        " has a coordinate that is infinite or not a number"));
 }
 
 Result<std::vector<float>> read_joints(const FrameSource& source, std::uint64_t number) {
   const std::span<const float> joints = source.joint_positions();
   const std::size_t joint_count = source.skeleton().joint_names.size();
   const auto invalid = [number](std::string message) {
-    return Error{ErrorCode::kInvalidInput, std::move(message), {}, number, ""};
+    return at_frame(number, invalid_input(std::move(message)));
   };
   if (joints.size() != 3 * joint_count) {
     return invalid("there are positions for " + std::to_string(joints.size() / 3) + " of the skeleton's " +

@@ -37,7 +37,7 @@ void draw_measure_picture(const std::string& path, const FrameSource& source, co
                           const std::string& criteria, const Look& look) {
   const std::vector<Cell> cells = sheet_cells(look.width, look.height, 2, 1);
   PicturePainter painter(look.width, look.height, look.style, true);
-  Bounds bounds;
+  BoundingBox bounds;
   bounds.extend(frame.positions);
   OrbitCamera camera;
   camera.set_angles(look.angles);

@@ -23,7 +23,7 @@ PicturePainter::PicturePainter(int width, int height, const Style& style, bool l
   if (labels) text_.emplace(text_size(height));
 }
 
-void PicturePainter::set_scene(const Bounds& bounds, UpAxis up, const OrbitCamera& camera) {
+void PicturePainter::set_scene(const BoundingBox& bounds, UpAxis up, const OrbitCamera& camera) {
   shown_.renderer.set_scene(bounds, up);
   reference_.renderer.set_scene(bounds, up);
   camera_ = camera;

@@ -31,7 +31,7 @@ class PicturePainter {
   PicturePainter(int width, int height, const Style& style, bool labels);
 
   /// What all pictures show, and from where.
-  void set_scene(const Bounds& bounds, UpAxis up, const OrbitCamera& camera);
+  void set_scene(const BoundingBox& bounds, UpAxis up, const OrbitCamera& camera);
 
   /// Two meshes can be drawn in turn without their being sent to the driver anew each time.
   enum class Which { kShown, kReference };

@@ -69,7 +69,7 @@ class RenderJob {
   void prepare(PicturePainter& painter, int cell_width, int cell_height) {
     if (!surveyed_) {
       survey_frame();
-      bounds_.pad(0.12);
+      bounds_.pad(0.24 * view_radius(bounds_));
     }
     frames_.set_scale(surveyed_);
     OrbitCamera camera;
@@ -168,7 +168,7 @@ class RenderJob {
   const RenderOptions& options_;
   OverlayFrames frames_;
   ProgressBar bar_;
-  Bounds bounds_;
+  BoundingBox bounds_;
   bool surveyed_ = false;
   std::optional<std::uint64_t> count_;  // frames that are wanted
   std::uint64_t drawn_ = 0;

@@ -101,14 +101,14 @@ OrbitCamera::Axes OrbitCamera::axes() const {
   return axes;
 }
 
-void OrbitCamera::fit(const Bounds& bounds, UpAxis up) {
+void OrbitCamera::fit(const BoundingBox& bounds, UpAxis up) {
   up_ = up;
   center_ = target_ = bounds.center();
-  radius_ = bounds.radius();
+  radius_ = view_radius(bounds);
   fitted_distance_ = 0;
 }
 
-void OrbitCamera::fit_closely(const Bounds& bounds, UpAxis up, double aspect) {
+void OrbitCamera::fit_closely(const BoundingBox& bounds, UpAxis up, double aspect) {
   fit(bounds, up);
   const Axes at = axes();
   const double slope_y = std::tan(kFieldOfView / 2) / kMargin;

@@ -39,10 +39,10 @@ class OrbitCamera {
  public:
   /// Takes in what is shown: the distance is such that its bounding sphere fits at zoom 1, from everywhere.
   /// Angles and zoom stay, panning is undone.
-  void fit(const Bounds& bounds, UpAxis up);
+  void fit(const BoundingBox& bounds, UpAxis up);
   /// fit(), then nearer and to the side until the box itself fills most of a picture of this aspect from the
   /// present angles at zoom 1.
-  void fit_closely(const Bounds& bounds, UpAxis up, double aspect);
+  void fit_closely(const BoundingBox& bounds, UpAxis up, double aspect);
 
   void set_angles(const ViewAngles& angles);
   const ViewAngles& angles() const { return angles_; }

@@ -87,7 +87,7 @@ void MeshRenderer::set_mesh(const Mesh& mesh) {
   send_faces(draft_faces_, fewer);
 }
 
-void MeshRenderer::set_scene(const Bounds& bounds, UpAxis up) {
+void MeshRenderer::set_scene(const BoundingBox& bounds, UpAxis up) {
   scene_ = bounds;
   up_ = up;
 }
@@ -210,7 +210,7 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style,
   const bool y_up = up_ == UpAxis::kY;
   const std::size_t up = y_up ? 1 : 2;
   const std::size_t across = y_up ? 2 : 1;
-  const double radius = scene_.radius();
+  const double radius = view_radius(scene_);
   const double cell = round_length(radius / 6);
   std::array<double, 3> center = scene_.center();
   // A hair below what stands on it, so that flat feet do not flicker.

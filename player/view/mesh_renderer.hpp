@@ -39,7 +39,7 @@ class MeshRenderer {
   void set_mesh(const Mesh& mesh);
 
   /// What the ground grid lies under and how wide it is: the box of all that will be shown.
-  void set_scene(const Bounds& bounds, UpAxis up);
+  void set_scene(const BoundingBox& bounds, UpAxis up);
 
   /// The frame to draw. `positions` and `normals`: [vertex][xyz]; a normal of length 0 takes that of its
   /// face. `normals` may be empty, which draws flat. `values`: [vertex], 0 to 1, the colour of each vertex by
@@ -81,7 +81,7 @@ class MeshRenderer {
   bool has_normals_ = false;
   bool has_values_ = false;
   int colours_shown_ = -1;  // the map in colours_
-  Bounds scene_;
+  BoundingBox scene_;
   UpAxis up_ = UpAxis::kY;
 };
 

@@ -94,13 +94,11 @@ void PlaySession::show(std::shared_ptr<const PlayerFrame> frame) {
 
 void PlaySession::fit_view() {
   if (frame_ == nullptr) return;
-  const Metadata metadata = player_->snapshot().stream.metadata;
-  const auto axis = metadata.find("up");
-  const UpAxis up = axis != metadata.end() && axis->second == "z" ? UpAxis::kZ : UpAxis::kY;
-  Bounds bounds;
+  const UpAxis up = up_axis_of(player_->snapshot().stream.metadata);
+  BoundingBox bounds;
   bounds.extend(frame_->positions);
   renderer_.set_scene(bounds, up);
-  bounds.pad(0.06);  // frames to come move about
+  bounds.pad(0.12 * view_radius(bounds));  // frames to come move about
   const double aspect = static_cast<double>(window_.width()) / std::max(1, window_.height());
   camera_.fit_closely(bounds, up, aspect);
 }

@@ -35,7 +35,8 @@ std::vector<std::uint8_t> expected_flags(const Sequence& sequence, const EncodeO
   if (options.fine_bits == options.coarse_bits)
     return std::vector<std::uint8_t>(sequence.mesh.vertex_count, 1);
   const std::span<const FramePositions> frames = std::span(sequence.frames).subspan(first, count);
-  const std::vector<double> costs = curvature_criterion({sequence.mesh, frames, options.importance, {}, {}});
+  const Topology topology(sequence.mesh);
+  const std::vector<double> costs = curvature_criterion({topology, frames, options.importance, {}, {}, {}});
   return options.importance.threshold ? flag_above(costs, *options.importance.threshold)
                                       : flag_highest_share(costs, options.importance.share);
 }

@@ -176,9 +176,9 @@ TEST(StlReader, ReadsAsciiAndBinaryAndWeldsBitIdenticalCorners) {
   for (const std::string& bytes : {sample_stl_ascii(), sample_stl_binary(tetrahedron_positions(0))}) {
     MeshFile mesh = parsed(parse_stl, bytes);
     EXPECT_EQ(mesh.vertex_count(), 12U);
-    const Weld weld = find_weld(mesh.positions);
-    EXPECT_EQ(weld.vertex_count, 4U);
-    EXPECT_THAT(weld.vertex_of_corner, ElementsAre(0, 1, 2, 0, 2, 3, 0, 3, 1, 2, 1, 3));
+    const Weld weld = weld_positions(mesh.positions);
+    EXPECT_EQ(weld.vertex_count(), 4U);
+    EXPECT_THAT(weld.vertex_of_point, ElementsAre(0, 1, 2, 0, 2, 3, 0, 3, 1, 2, 1, 3));
     EXPECT_FALSE(apply_weld(weld, mesh));
     EXPECT_THAT(mesh.positions, ElementsAre(0, 0, 0, 0, 1, 0.125F, 1, 0, 0, 0, -0.5F, 1));
     EXPECT_THAT(mesh.faces, ElementsAre(Face{0, 1, 2}, Face{0, 2, 3}, Face{0, 3, 1}, Face{2, 1, 3}));

@@ -89,19 +89,6 @@ TEST(Curvature, StaysBetweenZeroAndOneForLargeAndSmallMeshes) {
   }
 }
 
-TEST(OneRings, CountAFaceOnceAtEachDistinctCorner) {
-  const OneRings rings(Mesh{4, {{0, 1, 2}, {1, 1, 3}, {2, 2, 2}, {0, 3, 0}}});
-  const auto at = [&](std::uint32_t v) {
-    const auto faces = rings.faces_at(v);
-    return std::vector<std::uint32_t>(faces.begin(), faces.end());
-  };
-  using testing::ElementsAre;
-  EXPECT_THAT(at(0), ElementsAre(0, 3));
-  EXPECT_THAT(at(1), ElementsAre(0, 1));
-  EXPECT_THAT(at(2), ElementsAre(0, 2));
-  EXPECT_THAT(at(3), ElementsAre(1, 3));
-}
-
 TEST(CurvatureOverTime, IsEquation3WorkedByHandOverThreeFrames) {
   const double right = std::acos(0.0);
   // Flat, a right angle, flat: k, 0, k with k = (1 - sqrt(1/2)) / 2.

@@ -78,18 +78,19 @@ TEST(SmoothCost, KeepsWhatIsEvenAndGathersWhatIsScattered) {
 
 TEST(Cost, IsEquation2WithWeightsOfEitherSign) {
   const Criterion ramp{"ramp", "1, 2, 3, ...", [](const CriterionInput& input) {
-                         std::vector<double> values(input.mesh.vertex_count);
+                         std::vector<double> values(input.mesh().vertex_count);
                          std::iota(values.begin(), values.end(), 1.0);
                          return values;
                        }};
   const Criterion alpha{"alpha", "constant", [](const CriterionInput& input) {
-                          return std::vector<double>(input.mesh.vertex_count, input.options.alpha);
+                          return std::vector<double>(input.mesh().vertex_count, input.options.alpha);
                         }};
   const Mesh mesh{3, {}};
   Importance options;
   options.alpha = 0.25;
   const Skeleton none;
-  const CriterionInput input{mesh, {}, options, none, {}};
+  const Topology topology(mesh);
+  const CriterionInput input{topology, {}, options, none, {}, {}};
   EXPECT_THAT(cost(std::vector<WeightedCriterion>{{&ramp, 2}, {&alpha, -4}}, input), ElementsAre(1, 3, 5));
   EXPECT_THAT(cost(std::vector<WeightedCriterion>{{&ramp, -1}}, input), ElementsAre(-1, -2, -3));
   EXPECT_THAT(cost({}, input), Each(0));

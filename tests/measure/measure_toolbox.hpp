@@ -15,7 +15,8 @@ using Joints = std::vector<std::vector<float>>;  ///< [frame][joint][xyz]
 inline std::vector<double> evaluate(const char* name, const Mesh& mesh,
                                     const std::vector<FramePositions>& frames,
                                     const Importance& options = {}) {
-  return find_criterion(name)->evaluate({mesh, frames, options, {}, {}});
+  const Topology topology(mesh);
+  return find_criterion(name)->evaluate({topology, frames, options, {}, {}, {}});
 }
 
 /// Shoulder, elbow and hand.

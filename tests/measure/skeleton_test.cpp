@@ -18,7 +18,10 @@ std::vector<double> skel(const Skeleton& skeleton, const Joints& joints, const F
                          const Importance& options = {}) {
   const Mesh mesh{static_cast<std::uint32_t>(vertices.size() / 3), {}};
   const std::vector<FramePositions> frames(joints.size(), vertices);
-  return skeleton_criterion({mesh, frames, options, skeleton, joints});
+  const Topology topology(mesh);
+  const std::vector<JointMotion> motions =
+      judge_joints(joint_angle_sums(skeleton, joints), joints.size() - 1, options.skel_threshold);
+  return skeleton_criterion({topology, frames, options, skeleton, joints, motions});
 }
 
 TEST(JointAngleSums, AreEquation4WorkedByHandOnAnArm) {

@@ -27,8 +27,8 @@ std::array<double, 3> project(const OrbitCamera& camera, double aspect, const st
   return {clip[0] / clip[3], clip[1] / clip[3], clip[2] / clip[3]};
 }
 
-Bounds box(float x, float y, float z) {
-  Bounds bounds;
+BoundingBox box(float x, float y, float z) {
+  BoundingBox bounds;
   bounds.extend(std::vector<float>{-x, -y, -z, x, y, z});
   return bounds;
 }
@@ -63,7 +63,7 @@ TEST(Camera, KeepsTheUpAxisUp) {
 }
 
 TEST(Camera, FitsEveryCornerFromEverywhere) {
-  const Bounds bounds = box(3, 0.5F, 1);
+  const BoundingBox bounds = box(3, 0.5F, 1);
   for (const double aspect : {0.4, 1.0, 2.5}) {
     for (double azimuth = -180; azimuth < 180; azimuth += 37) {
       for (const double elevation : {-90.0, -20.0, 0.0, 50.0, 90.0}) {
@@ -115,7 +115,7 @@ TEST(Camera, ZoomsWithinBounds) {
 TEST(Camera, StandsSomewhereEvenForOnePointOrNone) {
   for (const std::vector<float>& points :
        {std::vector<float>{}, std::vector<float>{5, 5, 5}, std::vector<float>{NAN, 0, 0, INFINITY, 1, 1}}) {
-    Bounds bounds;
+    BoundingBox bounds;
     bounds.extend(points);
     OrbitCamera camera;
     camera.fit_closely(bounds, UpAxis::kY, 1.5);

@@ -23,7 +23,7 @@ Sequence corpus_sequence(std::string_view name, std::uint32_t vertices) {
 Image draw(const Sequence& sequence, const ShownFrame& frame, const Style& style,
            ColourMap map = ColourMap::kViridis) {
   PicturePainter painter(kWidth, kHeight, style, false);
-  const Bounds bounds = bounds_of(sequence);
+  const BoundingBox bounds = bounds_of(sequence);
   painter.set_scene(bounds, UpAxis::kY, camera_for(bounds, static_cast<double>(kWidth) / kHeight));
   painter.begin();
   painter.draw(frame, PicturePainter::Which::kShown, map, {0, 0, kWidth, kHeight});
@@ -87,7 +87,7 @@ Image draw_sheet() {
   const Sequence hand = corpus_sequence("hand", 1600);
   PicturePainter painter(kWidth, kHeight, {}, false);
   const std::vector<Cell> cells = sheet_cells(kWidth, kHeight, 3, 2);
-  const Bounds bounds = bounds_of(hand);
+  const BoundingBox bounds = bounds_of(hand);
   painter.set_scene(bounds, UpAxis::kY,
                     camera_for(bounds, static_cast<double>(cells[0].width) / cells[0].height));
   painter.begin();

@@ -21,14 +21,14 @@ inline ShownFrame shown_frame(const Sequence& sequence, std::size_t number) {
 }
 
 /// The camera of all test pictures: the whole sequence, seen from where users see it first.
-inline OrbitCamera camera_for(const Bounds& bounds, double aspect) {
+inline OrbitCamera camera_for(const BoundingBox& bounds, double aspect) {
   OrbitCamera camera;
   camera.fit_closely(bounds, UpAxis::kY, aspect);
   return camera;
 }
 
-inline Bounds bounds_of(const Sequence& sequence) {
-  Bounds bounds;
+inline BoundingBox bounds_of(const Sequence& sequence) {
+  BoundingBox bounds;
   for (const FramePositions& frame : sequence.frames) bounds.extend(frame);
   return bounds;
 }

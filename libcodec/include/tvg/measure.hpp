@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -84,6 +85,25 @@ struct Measure {
   std::vector<double> cost;         ///< [vertex]
   std::vector<std::uint8_t> flags;  ///< [vertex]: 1 important, 0 not
   std::vector<JointMotion> joints;  ///< [joint]; empty unless a criterion uses the skeleton
+};
+
+class Topology;
+
+/// Measures one run of frames of a mesh after the other; what only depends on the mesh is worked out once.
+/// Mesh, skeleton and importance must outlive it.
+class Measurer {
+ public:
+  Measurer(const Mesh& mesh, const Skeleton& skeleton, const Importance& importance);
+  ~Measurer();
+
+  /// As the function measure() below. Several threads may call it at once.
+  Result<Measure> measure(std::span<const FramePositions> frames,
+                          std::span<const std::vector<float>> joints) const;
+
+ private:
+  std::unique_ptr<const Topology> topology_;
+  const Skeleton& skeleton_;
+  const Importance& importance_;
 };
 
 /// Measures `frames` ([frame][vertex][xyz], at least one). `joints` ([frame][joint][xyz]) may be empty unless

@@ -44,9 +44,9 @@ const char* error_name(ErrorCode code);
 struct Error {
   ErrorCode code = ErrorCode::kMalformed;
   std::string message;  ///< one sentence: what is wrong and, where known, what would be right
-  std::optional<std::uint64_t> byte_offset;  ///< where in the stream, counted from its first byte
-  std::optional<std::uint64_t> frame;        ///< the first frame concerned, counted from 0
-  const char* section = "";                  ///< section of format-spec/tvg.md that the bytes break, or ""
+  std::optional<std::uint64_t> byte_offset = {};  ///< where in the stream, counted from its first byte
+  std::optional<std::uint64_t> frame = {};        ///< the first frame concerned, counted from 0
+  const char* section = "";  ///< section of format-spec/tvg.md that the bytes break, or ""
 
   /// The message with code, offset, frame and section appended, on one line.
   std::string describe() const;
@@ -120,6 +120,16 @@ struct FrameRange {
 /// its own.
 inline constexpr std::uint16_t kFormatMajor = 0;
 inline constexpr std::uint16_t kFormatMinor = 1;
+
+/// Bits of a lattice index (format-spec §7.1): predictions of 24-bit indices, residuals and all, stay within
+/// 32 bits.
+inline constexpr int kMinBits = 1;
+inline constexpr int kMaxBits = 24;
+
+/// Vertices of one mesh (format-spec §4.3): counts are written with 31 bits.
+inline constexpr std::uint32_t kMaxVertexCount = 0x7FFFFFFF;
+/// Faces of one mesh (format-spec §5.1): their half-edges, three to a face, are numbered with 32 bits.
+inline constexpr std::uint32_t kMaxFaceCount = 1u << 30;
 
 /// How frames are predicted (format-spec §7.2).
 enum class Predictor : std::uint8_t {

@@ -1,4 +1,4 @@
-#include "quantization/bounding_box.hpp"
+#include "quantization/lattice_over_encode.hpp"
 
 #include <array>
 #include <cmath>
@@ -15,15 +15,6 @@ BoundingBox box_of(float x, float y, float z) {
   box.extend(std::array<float, 3>{1, 2, 3});
   box.extend(std::array<float, 3>{1 + x, 2 + y, 3 + z});
   return box;
-}
-
-TEST(BoundingBox, GrowsOverVerticesAndFrames) {
-  BoundingBox box;
-  box.extend(std::vector<float>{0, 5, -1, 2, 4, -3});
-  box.extend(std::vector<float>{-1, 4.5f, 7});
-  EXPECT_EQ(box.low(), (std::array<double, 3>{-1, 4, -3}));
-  EXPECT_EQ(box.high(), (std::array<double, 3>{2, 5, 7}));
-  EXPECT_EQ(box.largest_extent(), 10);
 }
 
 TEST(LatticeOverBox, StepIsTheLargestExtentOverTwoToTheBits) {
