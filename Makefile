@@ -13,7 +13,7 @@ define BUILD
 @if [ -t 1 ]; then cmake --build $(1) $(2); else cmake --build $(1) $(2) -- --quiet; fi
 endef
 
-.PHONY: build demo test bench format check-format lint sanitize fuzz clean
+.PHONY: build demo test bench format check-format lint sanitize fuzz portability clean
 .NOTPARALLEL:
 
 build:
@@ -58,6 +58,11 @@ fuzz:
 	@$(CONFIGURE) fuzz >/dev/null
 	$(call BUILD,build/fuzz,--target tvg_fuzzers)
 	@scripts/run_fuzzers.sh build/fuzz $(FUZZ_SECONDS)
+
+# The decoder with other compilers and on other machines.
+portability:
+	@scripts/install_packages.sh portability
+	@WERROR=$(WERROR) scripts/check_portability.sh
 
 clean:
 	@rm -rf build

@@ -1,5 +1,6 @@
 #!/bin/bash
-# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, test, bench, check) are installed.
+# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, test, bench, check, portability) are
+# installed.
 # Does nothing when all are there; as root it installs the missing ones; otherwise it lists them and fails.
 set -euo pipefail
 
@@ -9,6 +10,9 @@ build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libc
 test=(ffmpeg nginx-light xvfb assimp-testmodels)
 bench=(libbenchmark-dev libdraco-dev libmeshoptimizer-dev libzstd-dev)
 check=(clang clang-format clang-tidy libclang-rt-14-dev)
+# Without g++-multilib, which Debian does not let stand beside compilers for other machines.
+portability=(cmake g++ ninja-build pkg-config libxxhash-dev clang g++-12-multilib g++-aarch64-linux-gnu
+  g++-s390x-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 emscripten nodejs)
 
 wanted=()
 for group in "$@"; do
@@ -17,7 +21,8 @@ for group in "$@"; do
     test) wanted+=("${test[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
     check) wanted+=("${check[@]}") ;;
-    *) echo "install_packages.sh: no group '$group' (build, test, bench, check)" >&2; exit 1 ;;
+    portability) wanted+=("${portability[@]}") ;;
+    *) echo "install_packages.sh: no group '$group' (build, test, bench, check, portability)" >&2; exit 1 ;;
   esac
 done
 

@@ -1,7 +1,9 @@
 #pragma once
-#include <bit>
+#include "base/bits.hpp"
+
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 // Primitive types of the format (format-spec §2): little-endian integers, binary64, and varints in shortest
@@ -17,7 +19,7 @@ class ByteWriter {
   void u16(std::uint16_t value) { little_endian(value, 2); }
   void u32(std::uint32_t value) { little_endian(value, 4); }
   void u64(std::uint64_t value) { little_endian(value, 8); }
-  void f64(double value) { u64(std::bit_cast<std::uint64_t>(value)); }
+  void f64(double value) { u64(bits_as<std::uint64_t>(value)); }
   void varint(std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) u8(static_cast<std::uint8_t>(value | 0x80));
     u8(static_cast<std::uint8_t>(value));
@@ -45,7 +47,7 @@ class ByteReader {
   std::uint16_t u16() { return static_cast<std::uint16_t>(little_endian(2)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(little_endian(4)); }
   std::uint64_t u64() { return little_endian(8); }
-  double f64() { return std::bit_cast<double>(u64()); }
+  double f64() { return bits_as<double>(u64()); }
 
   /// Refuses a varint that is not in its shortest form or does not fit 64 bits (format-spec §2.2).
   std::uint64_t varint() {

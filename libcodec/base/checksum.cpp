@@ -1,6 +1,7 @@
 #define XXH_INLINE_ALL
 #include "base/checksum.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <new>
 #include <xxhash.h>
@@ -30,9 +31,18 @@ void Hasher::update(std::span<const std::uint8_t> bytes) {
 }
 
 void Hasher::update(std::span<const std::int32_t> values) {
-  static_assert(std::endian::native == std::endian::little,
-                "the digest is defined over little-endian integers");
-  XXH64_update(state_in(state_), values.data(), values.size_bytes());
+  if constexpr (std::endian::native == std::endian::little) {
+    XXH64_update(state_in(state_), values.data(), values.size_bytes());
+  } else {
+    std::array<std::uint8_t, 256> piece;
+    for (std::size_t begin = 0; begin < values.size(); begin += piece.size() / 4) {
+      const auto some = values.subspan(begin, std::min(values.size() - begin, piece.size() / 4));
+      for (std::size_t i = 0; i < 4 * some.size(); ++i) {
+        piece[i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(some[i / 4]) >> (8 * (i % 4)));
+      }
+      XXH64_update(state_in(state_), piece.data(), 4 * some.size());
+    }
+  }
 }
 
 std::uint64_t Hasher::value() const {

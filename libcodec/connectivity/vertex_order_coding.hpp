@@ -46,7 +46,9 @@ class IndexSet {
   }
 
   void remove(std::uint32_t value) {
-    for (std::uint64_t i = std::uint64_t{value} + 1; i <= size_; i += i & (~i + 1)) --tree_[i];
+    for (std::uint64_t i = std::uint64_t{value} + 1; i <= size_; i += i & (~i + 1)) {
+      --tree_[static_cast<std::size_t>(i)];
+    }
   }
 
  private:

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/bits.hpp"
 #include "connectivity/connectivity.hpp"
 #include "planes/residual_context.hpp"
 #include "planes/residual_models.hpp"
@@ -8,7 +9,6 @@
 #include "quantization/lattice.hpp"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -105,7 +105,7 @@ class FrameCoder {
   /// same of one coordinate at a time.
   template <class P, class Coder>
   std::uint32_t code_uniform(Coder& coder, std::size_t v, const Gate& gate) {
-    const auto lanes = [](const Quad& quad) { return std::bit_cast<Lanes>(quad); };
+    const auto lanes = [](const Quad& quad) { return bits_as<Lanes>(quad); };
     const auto size = [](Lanes x) { return (x ^ (x >> 31)) - (x >> 31); };
     const Prediction<Lanes> prediction = P::template predict<Lanes>(
         {lanes(previous_[v]), lanes(current_[gate.n]), lanes(current_[gate.p]), lanes(current_[gate.o]),
@@ -135,8 +135,8 @@ class FrameCoder {
     const Lanes inside = index & ((1 << bits_) - 1);
     const Lanes differs = index ^ inside;
     const std::uint32_t outside = static_cast<std::uint32_t>(differs[0] | differs[1] | differs[2]);
-    if constexpr (Coder::kDecoding) current_[v] = std::bit_cast<Quad>(inside);
-    residuals_[v] = outside == 0 ? std::bit_cast<Quad>(residuals) : Quad{};
+    if constexpr (Coder::kDecoding) current_[v] = bits_as<Quad>(inside);
+    residuals_[v] = outside == 0 ? bits_as<Quad>(residuals) : Quad{};
     return outside;
   }
 

@@ -28,7 +28,7 @@ std::string output_of(const std::string& command) {
 TEST(SharedLibrary, ExportsTheFunctionsOfItsHeaderAndNothingElse) {
   std::ifstream header(TVG_C_HEADER);
   const std::string text{std::istreambuf_iterator<char>(header), {}};
-  const std::regex declaration("\n[a-z][a-z0-9_ ]*[ *]+(tvg_[a-z_]+)\\(");
+  const std::regex declaration("\nTVG_API [a-z][a-z0-9_ ]*[ *]+(tvg_[a-z_]+)\\(");
   std::set<std::string> declared;
   for (std::sregex_iterator i(text.begin(), text.end(), declaration), end; i != end; ++i)
     declared.insert((*i)[1]);

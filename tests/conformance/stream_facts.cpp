@@ -1,5 +1,6 @@
 #include "stream_facts.hpp"
 
+#include "base/bits.hpp"
 #include "base/checksum.hpp"
 
 #include <cstdio>
@@ -12,8 +13,11 @@ namespace tvg::conformance {
 
 namespace {
 
-std::span<const std::uint8_t> bytes_of(const auto& values) {
-  return {reinterpret_cast<const std::uint8_t*>(values.data()), values.size() * sizeof values[0]};
+/// Digests four bytes of each value, least significant first on every machine.
+void add(Hasher& hasher, const auto& values) {
+  std::vector<std::int32_t> words;
+  for (const auto value : values) words.push_back(bits_as<std::int32_t>(value));
+  hasher.update(words);
 }
 
 }  // namespace
@@ -32,7 +36,7 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream) {
       case Decoder::Event::kMesh:
         facts.vertices += decoder.mesh().vertex_count;
         facts.faces += decoder.mesh().faces.size();
-        for (const Face& face : decoder.mesh().faces) faces.update(bytes_of(face));
+        for (const Face& face : decoder.mesh().faces) add(faces, face);
         indices.resize(3 * std::size_t{decoder.mesh().vertex_count});
         coordinates.resize(indices.size());
         break;
@@ -41,7 +45,7 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream) {
         decoder.copy_lattice(indices);
         decoder.copy_positions(coordinates.data());
         lattice.update(indices);
-        positions.update(bytes_of(coordinates));
+        add(positions, coordinates);
         break;
       case Decoder::Event::kDamage:
         return decoder.damage().error;

@@ -14,9 +14,14 @@ if(WAY STREQUAL pkg_config AND NOT PKG_CONFIG)
   return()
 endif()
 
-set(flags "")
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
 if(SANITIZE)
-  set(flags -fsanitize=${SANITIZE})
+  list(APPEND flags -fsanitize=${SANITIZE})
+endif()
+list(JOIN flags " " all_flags)
+set(halves decoder)
+if(ENCODER)
+  list(APPEND halves encoder)
 endif()
 set(prefix ${SCRATCH}/prefix)
 file(REMOVE_RECURSE ${SCRATCH})
@@ -24,18 +29,19 @@ run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --prefix ${prefix} --component li
 
 if(WAY STREQUAL find_package)
   run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
-    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_FLAGS=${flags}
-    -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_C_FLAGS=${flags} -DEXAMPLES=${EXAMPLES}
+    -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${all_flags}"
+    -DCMAKE_C_COMPILER=${C_COMPILER} "-DCMAKE_C_FLAGS=${all_flags}" -DEXAMPLES=${EXAMPLES}
     # Neither is part of the public interface: the package must do without them.
     -DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON -DCMAKE_DISABLE_FIND_PACKAGE_nanoflann=ON)
   run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
-  run(${SCRATCH}/build/decoder_consumer)
-  run(${SCRATCH}/build/encoder_consumer)
+  foreach(half IN LISTS halves)
+    run(${SCRATCH}/build/${half}_consumer)
+  endforeach()
   run(sh -c "${SCRATCH}/build/print_frames < ${STREAM}")
 else()
   set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
   set(ENV{LD_LIBRARY_PATH} ${prefix}/${LIBDIR})
-  foreach(half decoder encoder)
+  foreach(half IN LISTS halves)
     run(${PKG_CONFIG} --static --cflags --libs tvg-${half})
     separate_arguments(options UNIX_COMMAND "${output}")
     run(${COMPILER} -std=c++20 ${flags} ${CONSUMER}/${half}_consumer.cpp ${options} -o ${SCRATCH}/${half}_consumer)

@@ -36,6 +36,21 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Where the library is linked in statically, who uses it defines TVG_STATIC; CMake and pkg-config do so. */
+#if defined(TVG_STATIC)
+#define TVG_API
+#elif defined(_WIN32) && defined(TVG_BUILDS_LIBRARY)
+#define TVG_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define TVG_API __declspec(dllimport)
+#elif defined(__EMSCRIPTEN__)
+#define TVG_API __attribute__((used, visibility("default")))
+#elif defined(__GNUC__)
+#define TVG_API __attribute__((visibility("default")))
+#else
+#define TVG_API
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -140,72 +155,73 @@ typedef struct tvg_damage_info {
 } tvg_damage_info;
 
 /* The version of the library, as TVG_VERSION has it. */
-uint32_t tvg_version(void);
+TVG_API uint32_t tvg_version(void);
 /* A code's name ("checksum-mismatch"); "unknown" for a number that is none. */
-const char* tvg_code_name(tvg_code code);
+TVG_API const char* tvg_code_name(tvg_code code);
 
 /* Sets all limits to what they are without being set. `limits->struct_size` must be set. */
-tvg_code tvg_limits_init(tvg_limits* limits);
+TVG_API tvg_code tvg_limits_init(tvg_limits* limits);
 
 /* A new decoder, the caller's to destroy. `limits` may be null. Null where memory is short, or `struct_size`
    is not set. */
-tvg_decoder* tvg_decoder_create(const tvg_limits* limits);
+TVG_API tvg_decoder* tvg_decoder_create(const tvg_limits* limits);
 /* Null is allowed. */
-void tvg_decoder_destroy(tvg_decoder* decoder);
+TVG_API void tvg_decoder_destroy(tvg_decoder* decoder);
 
 /* Takes the next bytes of the stream; they are copied. */
-tvg_code tvg_decoder_push(tvg_decoder* decoder, const void* bytes, size_t size);
+TVG_API tvg_code tvg_decoder_push(tvg_decoder* decoder, const void* bytes, size_t size);
 /* Says that no bytes follow. */
-tvg_code tvg_decoder_finish(tvg_decoder* decoder);
+TVG_API tvg_code tvg_decoder_finish(tvg_decoder* decoder);
 /* The next event. After TVG_EVENT_END and TVG_EVENT_ERROR it stays the same. */
-tvg_event tvg_decoder_poll(tvg_decoder* decoder);
+TVG_API tvg_event tvg_decoder_poll(tvg_decoder* decoder);
 
 /* From TVG_EVENT_HEAD on. */
-tvg_code tvg_decoder_get_stream(const tvg_decoder* decoder, tvg_stream_info* stream);
+TVG_API tvg_code tvg_decoder_get_stream(const tvg_decoder* decoder, tvg_stream_info* stream);
 /* The value of a key ("fps", "name", "units", "up", ...) in UTF-8, or null. The decoder's own, until the next
    TVG_EVENT_METADATA. */
-const char* tvg_decoder_metadata(const tvg_decoder* decoder, const char* key);
+TVG_API const char* tvg_decoder_metadata(const tvg_decoder* decoder, const char* key);
 /* The keys, in order; null behind the last. */
-const char* tvg_decoder_metadata_key(const tvg_decoder* decoder, size_t index);
+TVG_API const char* tvg_decoder_metadata_key(const tvg_decoder* decoder, size_t index);
 /* From TVG_EVENT_MESH on. */
-tvg_code tvg_decoder_get_mesh(const tvg_decoder* decoder, tvg_mesh_info* mesh);
+TVG_API tvg_code tvg_decoder_get_mesh(const tvg_decoder* decoder, tvg_mesh_info* mesh);
 /* From TVG_EVENT_GOP until the next GOP, mesh or seek, and with every frame. */
-tvg_code tvg_decoder_get_gop(const tvg_decoder* decoder, tvg_gop_info* gop);
+TVG_API tvg_code tvg_decoder_get_gop(const tvg_decoder* decoder, tvg_gop_info* gop);
 /* Importance of each vertex, 0 or 1, into `size` >= vertex_count bytes. As tvg_decoder_get_gop. */
-tvg_code tvg_decoder_copy_flags(const tvg_decoder* decoder, uint8_t* flags, size_t size);
+TVG_API tvg_code tvg_decoder_copy_flags(const tvg_decoder* decoder, uint8_t* flags, size_t size);
 
 /* The frame: from TVG_EVENT_FRAME until the next tvg_decoder_poll or tvg_decoder_seek. */
-tvg_code tvg_decoder_get_frame(const tvg_decoder* decoder, tvg_frame_info* frame);
+TVG_API tvg_code tvg_decoder_get_frame(const tvg_decoder* decoder, tvg_frame_info* frame);
 /* Writes x, y, z of vertex v as float32 at `positions` + v * `stride` bytes. `stride` is at least 12, `size`
    at least (vertex_count - 1) * stride + 12. Does not allocate. */
-tvg_code tvg_decoder_copy_positions(const tvg_decoder* decoder, void* positions, size_t size, size_t stride);
+TVG_API tvg_code tvg_decoder_copy_positions(const tvg_decoder* decoder, void* positions, size_t size,
+                                            size_t stride);
 /* The same for unit normals, weighted by area; 0, 0, 0 for a vertex without a face. The first call after a
    mesh allocates. */
-tvg_code tvg_decoder_copy_normals(tvg_decoder* decoder, void* normals, size_t size, size_t stride);
+TVG_API tvg_code tvg_decoder_copy_normals(tvg_decoder* decoder, void* normals, size_t size, size_t stride);
 
 /* From TVG_EVENT_DAMAGE until the next tvg_decoder_poll. */
-tvg_code tvg_decoder_get_damage(const tvg_decoder* decoder, tvg_damage_info* damage);
+TVG_API tvg_code tvg_decoder_get_damage(const tvg_decoder* decoder, tvg_damage_info* damage);
 
 /* Where the index of a stream of `stream_bytes` lies, from its last TVG_TAIL_BYTES bytes. An error where they
    are no tail: the stream is cut, or still being written. */
-tvg_code tvg_locate_index(const void* tail, size_t tail_size, uint64_t stream_bytes, uint64_t* index_offset,
-                          uint64_t* index_bytes);
+TVG_API tvg_code tvg_locate_index(const void* tail, size_t tail_size, uint64_t stream_bytes,
+                                  uint64_t* index_offset, uint64_t* index_bytes);
 /* Takes the bytes that tvg_locate_index points at, so that seeking can go anywhere at once. */
-tvg_code tvg_decoder_load_index(tvg_decoder* decoder, const void* bytes, size_t size);
+TVG_API tvg_code tvg_decoder_load_index(tvg_decoder* decoder, const void* bytes, size_t size);
 /* Goes to a frame, from TVG_EVENT_HEAD on: the next TVG_EVENT_FRAME is this one, or the first good one after
    it. The bytes pushed from now on must begin at `*offset` of the stream. Without an index a frame ahead is
    reached by reading on, which decodes only the GOP that holds it. */
-tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t* offset);
+TVG_API tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t* offset);
 /* How many of the bytes that come next are of no use on the way to a frame. They count as pushed: the next
    push begins behind them. A caller that reads from a pipe need not ask. */
-uint64_t tvg_decoder_skip(tvg_decoder* decoder);
+TVG_API uint64_t tvg_decoder_skip(tvg_decoder* decoder);
 
 /* What went wrong last: in TVG_EVENT_ERROR, or in a function that did not return TVG_OK and took a decoder
    that was not const. One line for people; the decoder's own, until the next such event or call. "" where
    nothing has. */
-const char* tvg_decoder_error_text(const tvg_decoder* decoder);
+TVG_API const char* tvg_decoder_error_text(const tvg_decoder* decoder);
 /* Its code; TVG_OK where nothing has. */
-tvg_code tvg_decoder_error_code(const tvg_decoder* decoder);
+TVG_API tvg_code tvg_decoder_error_code(const tvg_decoder* decoder);
 
 #ifdef __cplusplus
 }

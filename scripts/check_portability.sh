@@ -1,0 +1,83 @@
+#!/bin/bash
+# check_portability.sh [CONFIGURATION...]: builds the decoder alone with other compilers and for other machines, and
+# runs its tests there: every conformance stream must decode to the digests of corpus/conformance/digests.txt, and the
+# decoder must stay within its budgets of size. Without arguments all configurations. WERROR=ON makes warnings errors.
+#   gcc-O0 gcc-O3 clang-O0 clang-O3   this machine
+#   m32                               32 bits of x86
+#   aarch64                           64 bits of ARM, under qemu
+#   s390x                             a machine that stores the most significant byte first, under qemu
+#   mingw                             Windows, under wine
+#   wasm                              WebAssembly made for size, under Node
+#   size                              made for size, this machine
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+known=(gcc-O0 gcc-O3 clang-O0 clang-O3 m32 aarch64 s390x mingw wasm size)
+wanted=("$@")
+[ $# -gt 0 ] || wanted=("${known[@]}")
+
+# Debian's Emscripten looks for what shrinks its scripts here; wine keeps its state in the build.
+export NODE_PATH=${NODE_PATH:-/usr/share/nodejs}
+export WINEPREFIX=$PWD/build/portability/wine WINEDEBUG=-all
+
+# What CMake must be told for a configuration, in `options`.
+compiler() { options+=("-DCMAKE_C_COMPILER=$1" "-DCMAKE_CXX_COMPILER=$2"); }
+optimize() { options+=(-DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=$1"); }
+# A program for another machine brings its libraries with it, so that the emulator needs none.
+cross() {
+  options+=("-DCMAKE_SYSTEM_NAME=$1" "-DCMAKE_SYSTEM_PROCESSOR=$2" "-DCMAKE_CROSSCOMPILING_EMULATOR=$3"
+    -DCMAKE_EXE_LINKER_FLAGS=-static)
+}
+set_options() {
+  options=()
+  case $1 in
+    gcc-O[03]) compiler gcc g++ && optimize "-${1#gcc-}" ;;
+    clang-O[03]) compiler clang clang++ && optimize "-${1#clang-}" ;;
+    m32)
+      # A few headers of Linux are the same for both widths, and found for the wider only.
+      compiler gcc g++ && optimize -O3
+      options+=("-DCMAKE_C_FLAGS=-m32 -idirafter /usr/include/x86_64-linux-gnu"
+        "-DCMAKE_CXX_FLAGS=-m32 -idirafter /usr/include/x86_64-linux-gnu")
+      ;;
+    aarch64 | s390x)
+      compiler "$1-linux-gnu-gcc" "$1-linux-gnu-g++" && cross Linux "$1" "qemu-$1" && optimize -O3
+      ;;
+    mingw)
+      compiler x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix
+      cross Windows x86_64 /usr/lib/wine/wine64 && optimize -O3
+      ;;
+    wasm) options=(--preset wasm) ;;
+    size) compiler gcc g++ && options+=(-DCMAKE_BUILD_TYPE=MinSizeRel) ;;
+    *)
+      echo "check_portability.sh: no configuration '$1' (${known[*]})" >&2
+      exit 1
+      ;;
+  esac
+}
+
+# Each step says nothing unless it fails.
+quietly() {
+  "$@" >"$log" 2>&1 || { cat "$log" && return 1; }
+}
+check() {
+  local build=build/portability/$1 log=build/portability/$1.log began=$SECONDS
+  set_options "$1"
+  quietly cmake -S . -B "$build" -G Ninja -DTVG_BUILD_ENCODER=OFF -DTVG_WARNINGS_AS_ERRORS="${WERROR:-OFF}" \
+    "${options[@]}" &&
+    quietly cmake --build "$build" &&
+    quietly ctest --test-dir "$build" --no-tests=error --output-on-failure || return 1
+  printf '%-9s %3d s  %s\n' "$1" $((SECONDS - began)) "$(summary "$build")"
+}
+# The tests that ran, and how large the decoder is where that was measured.
+summary() {
+  local log=$1/Testing/Temporary/LastTest.log
+  sed -n 's/^[0-9]*\/[0-9]* Test: //p' "$log" | tr '\n' ' '
+  sed -n 's/; the budget is .*//p' "$log" | sed 's/^.*\///' | tr '\n' ' '
+}
+
+mkdir -p build/portability
+failed=()
+for configuration in "${wanted[@]}"; do
+  check "$configuration" || { failed+=("$configuration") && echo "$configuration FAILED"; }
+done
+[ ${#failed[@]} -eq 0 ] || exit 1
