@@ -34,13 +34,14 @@ function(tvg_hide_symbols target)
     VISIBILITY_INLINES_HIDDEN ON)
 endfunction()
 
-# The decoder throws nothing and asks for no types at run time.
+# The decoder throws nothing and asks for no types at run time; what a program does not use of it can be left out when
+# it is linked.
 function(tvg_without_exceptions target)
   if(MSVC)
     target_compile_definitions(${target} PRIVATE _HAS_EXCEPTIONS=0)
     target_compile_options(${target} PRIVATE /GR-)
   else()
-    target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti)
+    target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -ffunction-sections -fdata-sections)
   endif()
 endfunction()
 
