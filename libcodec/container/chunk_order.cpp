@@ -15,9 +15,9 @@ constexpr OrderRule kTake = {};
 constexpr OrderRule kNoHead = {Verdict::kRefuse, "the stream does not begin with its head", "§3.4"};
 constexpr OrderRule kHeadTwice = {Verdict::kPassOver, "the stream has a second head", "§3.4"};
 constexpr OrderRule kIndexTwice = {Verdict::kPassOver, "the stream has a second index", "§3.4"};
-constexpr OrderRule kMetaLate = {Verdict::kReport, "metadata follow the index", "§3.4"};
-constexpr OrderRule kMeshLate = {Verdict::kReport, "a mesh follows the index", "§3.4"};
-constexpr OrderRule kGopLate = {Verdict::kReport, "a GOP follows the index", "§3.4"};
+constexpr OrderRule kMetaLate = {Verdict::kPassOver, "metadata follow the index", "§3.4"};
+constexpr OrderRule kMeshLate = {Verdict::kPassOver, "a mesh follows the index", "§3.4"};
+constexpr OrderRule kGopLate = {Verdict::kPassOver, "a GOP follows the index", "§3.4"};
 constexpr OrderRule kNoIndex = {Verdict::kReport, "the stream ends without an index", "§4.7"};
 constexpr OrderRule kUnknown = {Verdict::kRefuse, "the stream needs a decoder that knows this chunk", "§3.2"};
 

@@ -183,7 +183,7 @@ std::optional<ChunkReader::Event> ChunkReader::read_signature() {
   return std::nullopt;
 }
 
-// format-spec §3.2, §3.4
+// format-spec §3.2
 std::optional<ChunkReader::Event> ChunkReader::read_header() {
   if (available().size() < kChunkHeaderSize) return need_bytes();
   if (!can_allocate(kSmallThings)) return fail(out_of_memory());
@@ -191,35 +191,45 @@ std::optional<ChunkReader::Event> ChunkReader::read_header() {
   const std::optional<ChunkHeader> header = read_chunk_header(available());
   if (!header) return lose(malformed("§3.2", "a chunk header is damaged"), 1);
   const ChunkKind kind = kind_of(*header);
+  const OrderRule rule = rule_for(*header, kind);
+  if (rule.verdict != OrderRule::Verdict::kTake && (reported_at_ != offset_ || !has_head())) {
+    reported_at_ = offset_;
+    return refuse_header(*header, kind, rule);
+  }
+  return use_header(*header, kind, rule.verdict);
+}
+
+/// What becomes of a chunk by its header alone: its place, its flag, its length.
+// format-spec §3.4
+OrderRule ChunkReader::rule_for(const ChunkHeader& header, ChunkKind kind) const {
+  constexpr OrderRule::Verdict kPassOver = OrderRule::Verdict::kPassOver;
   const OrderRule& rule = order_rule(state_, kind);
-  if (rule.verdict == OrderRule::Verdict::kRefuse) {
+  if (rule.verdict == OrderRule::Verdict::kRefuse) return rule;
+  if (!flag_fits(header, kind)) return {kPassOver, "a chunk's ancillary flag does not fit its type", "§3.4"};
+  if (rule.verdict == kPassOver) return rule;
+  if (kind < ChunkKind::kAncillary && header.length > most_payload(kind))
+    return {kPassOver, "the payload of a chunk is too long", section_of_length(kind)};
+  if (kind == ChunkKind::kTail && !whole_) return {};  // that the index is gone is no news then
+  return rule;
+}
+
+/// Says what is wrong with a chunk by its header alone.
+ChunkReader::Event ChunkReader::refuse_header(const ChunkHeader& header, ChunkKind kind,
+                                              const OrderRule& rule) {
+  if (rule.verdict == OrderRule::Verdict::kRefuse || !has_head()) {
     Error error = kind == ChunkKind::kCritical && has_head()
                       ? stream_error(ErrorCode::kUnsupportedVersion, rule.section,
-                                     {rule.fault, ": '", text(header->type), "'"})
+                                     {rule.fault, ": '", text(header.type), "'"})
                       : malformed(rule.section, rule.fault);
     error.byte_offset = offset_;
     return fail(std::move(error));
   }
-  if (kind == ChunkKind::kMesh)
-    has_mesh_ = false;  // whatever it is, the GOPs that follow are not the last one's
-  if (!flag_fits(*header, kind))
-    return lose(malformed("§3.4", "a chunk's ancillary flag does not fit its type"), kChunkHeaderSize);
-  // A tail without an index is no news where chunks were lost.
-  const bool belongs = rule.verdict == OrderRule::Verdict::kTake || (kind == ChunkKind::kTail && !whole_);
-  if (!belongs && reported_at_ != offset_) {
-    reported_at_ = offset_;
-    return report(malformed(rule.section, rule.fault));
+  const Event event = report(malformed(rule.section, rule.fault));
+  if (state_ == StreamState::kBody && (kind == ChunkKind::kMesh || kind == ChunkKind::kGop)) {
+    problem_.loses = true;
+    whole_ = false;
   }
-  const bool dispensable = kind == ChunkKind::kMetadata || kind == ChunkKind::kIndex;
-  const bool fits =
-      kind == ChunkKind::kGop || kind >= ChunkKind::kAncillary || header->length <= most_payload(kind);
-  if (!fits && (!dispensable || reported_at_ != offset_)) {
-    reported_at_ = offset_;
-    Error error = stream_error(ErrorCode::kMalformed, section_of_length(kind),
-                               {"chunk '", text(header->type), "' is too long"});
-    return dispensable ? report(std::move(error)) : lose(std::move(error), kChunkHeaderSize);
-  }
-  return use_header(*header, kind, fits ? rule.verdict : OrderRule::Verdict::kPassOver);
+  return event;
 }
 
 ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind kind,
@@ -230,6 +240,8 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
   payload_hash_ = Hasher();
   hashed_ = true;
   packet_index_ = 0;
+  // Whatever becomes of a mesh, the GOPs that follow are not those of the one before.
+  if (kind == ChunkKind::kMesh) has_mesh_ = false;
   if (kind == ChunkKind::kAncillary || verdict == OrderRule::Verdict::kPassOver) {
     phase_ = Phase::kPassOver;
   } else if (kind == ChunkKind::kGop) {
@@ -239,7 +251,7 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
     phase_ = Phase::kPayload;
   }
   // Head and tail change the state once they are read.
-  if (kind == ChunkKind::kIndex && state_ == StreamState::kBody) {
+  if (kind == ChunkKind::kIndex && state_ == StreamState::kBody && header.ancillary) {
     index_offset_ = chunk_offset_;
     state_ = StreamState::kIndex;
   }
@@ -251,6 +263,7 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
 std::uint64_t ChunkReader::most_payload(ChunkKind kind) const {
   if (kind == ChunkKind::kMesh) return most_mesh_bytes(head_.limits);
   if (kind == ChunkKind::kIndex) return most_index_bytes(chunk_offset_);
+  if (kind == ChunkKind::kGop) return kMaxChunkLength;
   return kMaxSmallPayload;
 }
 

@@ -119,6 +119,8 @@ class ChunkReader {
   std::optional<Event> step();
   std::optional<Event> read_signature();
   std::optional<Event> read_header();
+  OrderRule rule_for(const ChunkHeader& header, ChunkKind kind) const;
+  Event refuse_header(const ChunkHeader& header, ChunkKind kind, const OrderRule& rule);
   Event use_header(const ChunkHeader& header, ChunkKind kind, OrderRule::Verdict verdict);
   std::optional<Event> read_payload();
   std::optional<Event> use_payload(Bytes payload);
