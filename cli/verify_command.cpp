@@ -112,10 +112,12 @@ void run_verify(const VerifyArguments& arguments) {
     }
   }
   if (!findings.empty()) {
-    throw ToolError(
-        ExitStatus::kInvalidInput,
-        fmt::format("{}: {} findings, {} frames decoded, {}{} lost", reader.name(), findings.size(),
-                    verdict.frames, verdict.lost, verdict.losses_known() ? "" : " or more"));
+    const std::string lost = verdict.losses_known() ? fmt::format("{}", verdict.lost)
+                             : verdict.lost > 0     ? fmt::format("at least {}", verdict.lost)
+                                                    : "an unknown number";
+    throw ToolError(ExitStatus::kInvalidInput,
+                    fmt::format("{}: {} findings, {} frames decoded, {} lost", reader.name(), findings.size(),
+                                verdict.frames, lost));
   }
 }
 

@@ -138,9 +138,7 @@ std::optional<Decoder::Event> Decoder::State::end_gop() {
 // format-spec §4.6
 std::optional<Decoder::Event> Decoder::State::take_index() {
   index = std::move(reader.index());
-  std::uint64_t count = 0;
-  for (const IndexEntry& entry : index) count += entry.frame_count;
-  const std::uint64_t missing = frames.meet_index(count);
+  const std::uint64_t missing = frames.meet_index(count_frames(index));
   const bool matches = map_.from_index() ? map_.matches(index) : reader.index_matches();
   if (matches && !frames.has_unknown() && !(frames.searched() && missing > 0)) return std::nullopt;
   Error mismatch = malformed("§4.6", "the index does not match the stream");

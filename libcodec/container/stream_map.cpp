@@ -6,6 +6,12 @@
 
 namespace tvg {
 
+std::uint64_t count_frames(std::span<const IndexEntry> index) {
+  std::uint64_t frames = 0;
+  for (const IndexEntry& entry : index) frames += entry.frame_count;
+  return frames;
+}
+
 bool StreamMap::note(const IndexEntry& entry, std::uint64_t first_frame) {
   if (from_index_ || (!places_.empty() && entry.offset <= places_.back().entry.offset)) return true;
   return try_push_back(places_, Place{entry, first_frame});

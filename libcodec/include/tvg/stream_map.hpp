@@ -19,6 +19,9 @@ Result<ByteRange> locate_index(std::span<const std::uint8_t> tail, std::uint64_t
 /// The entries of an index chunk, from all of its bytes.
 Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk);
 
+/// Frames of all GOPs of an index.
+std::uint64_t count_frames(std::span<const IndexEntry> index);
+
 /// Where the meshes and GOPs of a stream lie and which frames they hold: as they were met while reading from
 /// its start, or as its index says. Places are in the order of the stream.
 class StreamMap {
