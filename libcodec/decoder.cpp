@@ -71,9 +71,6 @@ Result<std::uint64_t> Decoder::seek(std::uint64_t frame) {
 std::uint64_t Decoder::skip() {
   return state_->skip();
 }
-void Decoder::measure_bits(bool on) {
-  state_->measures_bits = on;
-}
 const GopInfo& Decoder::gop() const {
   return state_->gop_info;
 }

@@ -376,7 +376,13 @@ std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet, std::size_
     begin_resync(total_bytes);
     return report_loss(missing + header->frame_count, std::move(cause));
   }
-  const Status begun = gop.begin(packet, mesh, head.limits);
+  const Status begun = header->frame_count <= head.limits.frames_per_gop
+                           ? gop.begin(*header, mesh)
+                           : Status(Error{ErrorCode::kLimitExceeded,
+                                          "the GOP has more frames than the stream's head declares",
+                                          {},
+                                          {},
+                                          "§4.1"});
   if (!begun.ok()) {
     begin_resync(total_bytes);
     unreported_loss_.reset();
@@ -393,6 +399,7 @@ std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet, std::size_
   gop_info = gop.info();
   gop_info.first_frame = position_;
   gop_info.bytes = chunk_.total_size();
+  gop_info.header_bytes = packet.size() - header->flags.size();
   // Room for any packet of this mesh, so that frames do not allocate.
   buffer_.reserve(static_cast<std::size_t>(
       std::min<std::uint64_t>(chunk_.length, 4096 + 16 * std::uint64_t{mesh.mesh.vertex_count})));
@@ -400,7 +407,8 @@ std::optional<Decoder::Event> Decoder::State::begin_gop(Bytes packet, std::size_
 }
 
 std::optional<Decoder::Event> Decoder::State::decode_frame(Bytes packet, std::size_t total_bytes) {
-  const Status decoded = measures_bits ? gop.decode_frame(packet, frame_bits) : gop.decode_frame(packet);
+  const Status decoded =
+      measured_take != nullptr ? (gop.*measured_take)(packet, frame_bits) : gop.take(packet);
   if (!decoded.ok()) {  // the checksum fits, so what the packet was decoded from may be wrong already
     position_ += frames_left_in_gop();
     begin_resync(total_bytes);

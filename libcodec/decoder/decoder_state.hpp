@@ -62,7 +62,8 @@ class Decoder::State {
   Error error;
   std::vector<IndexEntry> index;
   bool input_finished = false;
-  bool measures_bits = false;
+  /// Decodes a frame and fills frame_bits; null while nobody asks for bits.
+  Status (GopDecoder::*measured_take)(Bytes, std::array<double, 3>&) = nullptr;
 
  private:
   enum class Phase {

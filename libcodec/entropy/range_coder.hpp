@@ -1,7 +1,6 @@
 #pragma once
 #include "entropy/adaptive_models.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -53,9 +52,6 @@ class RangeEncoder {
     encode(value << (kProbabilityBits - count), 1u << (kProbabilityBits - count));
     return value;
   }
-
-  /// The symbols that follow belong to this coordinate: of interest to who counts bits.
-  void begin_coordinate(std::size_t /*axis*/) {}
 
   /// Ends the stream and returns its bytes; the encoder is then empty, ready for another stream.
   std::vector<std::uint8_t> finish();
@@ -122,8 +118,6 @@ class RangeDecoder {
     return value;
   }
 
-  void begin_coordinate(std::size_t /*axis*/) {}
-
   /// Bits used so far, with the fraction that the range tells.
   double used_bits() const {
     return 8.0 * static_cast<double>(next_) - available_ + 32 - std::log2(static_cast<double>(range_));
@@ -171,33 +165,6 @@ class RangeDecoder {
   std::uint32_t range_ = 0xFFFFFFFFu;
   bool impossible_ = false;  ///< the code value lay beyond every interval: no encoder writes that
   bool overrun_ = false;
-};
-
-/// A RangeDecoder that keeps account of the bits each coordinate takes.
-class MeteredRangeDecoder : public RangeDecoder {
- public:
-  using RangeDecoder::RangeDecoder;
-
-  void begin_coordinate(std::size_t axis) {
-    settle();
-    axis_ = axis;
-  }
-  /// [axis]: bits since the start.
-  std::array<double, 3> bits() {
-    settle();
-    return bits_;
-  }
-
- private:
-  void settle() {
-    const double now = used_bits();
-    bits_[axis_] += now - settled_;
-    settled_ = now;
-  }
-
-  std::array<double, 3> bits_{};
-  std::size_t axis_ = 0;
-  double settled_ = 0;
 };
 
 }  // namespace tvg
