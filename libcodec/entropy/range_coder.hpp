@@ -21,14 +21,14 @@ class RangeEncoder {
 
   /// Codes one symbol of an adaptive alphabet and adapts the model.
   std::uint32_t code(AdaptiveSymbol& model, std::uint32_t symbol) {
-    encode(SymbolMixture(model, model), symbol);
+    encode(SymbolMixture::interval_of(model, model, symbol));
     model.adapt(symbol);
     return symbol;
   }
 
   /// Codes one symbol with the mean of two different models and adapts both.
   std::uint32_t code(AdaptiveSymbol& a, AdaptiveSymbol& b, std::uint32_t symbol) {
-    encode(SymbolMixture(a, b), symbol);
+    encode(SymbolMixture::interval_of(a, b, symbol));
     a.adapt(symbol);
     b.adapt(symbol);
     return symbol;
@@ -57,12 +57,19 @@ class RangeEncoder {
   std::vector<std::uint8_t> finish();
 
  private:
-  void encode(const SymbolMixture& mixture, std::uint32_t symbol) {
-    const std::uint32_t low = mixture.cumulative(symbol);
-    encode(low, mixture.cumulative(symbol + 1) - low);
+  void encode(const SymbolMixture::Interval& interval) { encode(interval.low, interval.high - interval.low); }
+  void encode(std::uint32_t cumulative, std::uint32_t frequency) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    low_ += static_cast<std::uint64_t>(unit) * cumulative;
+    range_ = unit * frequency;
+    const int shift =
+        std::countl_zero(range_);  // at most 15: a frequency is at least 1, a unit at least 2^16
+    range_ <<= shift;
+    low_ <<= shift;
+    pending_ += shift;
+    if (pending_ >= 8) put_bytes();
   }
-  void encode(std::uint32_t cumulative, std::uint32_t frequency);
-  void put_byte();
+  void put_bytes();
 
   std::uint64_t low_ = 0;  ///< 32 bits below the point, `pending_` bits (and a carry) above it
   std::uint32_t range_ = 0xFFFFFFFFu;

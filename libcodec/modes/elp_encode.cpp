@@ -55,7 +55,7 @@ std::vector<std::uint8_t> ElpEncoder::take(const FramePositions& frame) {
 
 /// Quantizes a frame to the fine lattice; what has no flag then loses the bits its own lattice does not have.
 void ElpEncoder::quantize_frame(const FramePositions& frame) {
-  const Lattice& lattice = input_.lattice;
+  const Lattice lattice = input_.lattice;  // a copy: the indices written below cannot be part of it
   const int shift = lattice.shift();
   const std::span<Quad> indices = positions_.indices();
   for (std::size_t v = 0; v < indices.size(); ++v) {
