@@ -15,8 +15,11 @@ class Lanes {
  public:
   Lanes() = default;
   explicit Lanes(const Quad& quad) { std::memcpy(&lanes_, &quad, sizeof lanes_); }
+  /// From numbers that do not lie side by side in memory, where reading them at once would have to wait for
+  /// them.
+  Lanes(std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) : lanes_{a, b, c, d} {}
   /// The same in every lane.
-  static Lanes all(std::int32_t value) { return Lanes(Quad{value, value, value, value}); }
+  static Lanes all(std::int32_t value) { return Lanes(value, value, value, value); }
 
   std::int32_t operator[](std::size_t lane) const { return lanes_[lane]; }
   Quad quad() const {

@@ -121,7 +121,7 @@ class PlaneCoder {
     for (std::size_t plane = 0; plane < kPlanes; ++plane)
       coded[plane] = models_.code(coder, choice.of(plane), Coder::kDecoding ? 0 : wanted[plane]);
     // Whole quads are stored, not their parts: the next vertex loads them whole, at once.
-    const Lanes residuals(Quad{coded[0], coded[1], coded[2], coded[3]});
+    const Lanes residuals(coded[0], coded[1], coded[2], coded[3]);
     const Lanes index = prediction + residuals;
     const Lanes inside = index & Lanes::all((1 << (bits_ - shift)) - 1);
     const Quad differs = (index ^ inside).quad();
