@@ -1,6 +1,8 @@
 #pragma once
 #include "modes/elp_decode.hpp"
 
+#include <utility>
+
 // How a frame's packet is decoded, for the two files that do it: with an account of its bits and without.
 namespace tvg {
 

@@ -12,6 +12,11 @@
 namespace tvg {
 namespace {
 
+/// What predictors see of a plane.
+auto view(const std::array<std::int32_t, 4>& plane) {
+  return [&plane](std::uint32_t w) { return plane.at(w); };
+}
+
 /// One plane at two times: n, p, o and v.
 struct Around {
   std::array<std::int32_t, 4> then, now;
@@ -28,10 +33,6 @@ struct Around {
 
  private:
   static constexpr Scheduled kVertex{3, {0, 1, 2}, 0};
-
-  static auto view(const std::array<std::int32_t, 4>& plane) {
-    return [&plane](std::uint32_t w) { return plane.at(w); };
-  }
 };
 
 // n, p, o went from 40, 60, 45 to 43, 58, 49; v was at 50.
