@@ -32,10 +32,7 @@ class DecodeJob {
 
   void run() {
     index_ = reader_.read_index();
-    if (index_) {
-      total_ = 0;
-      for (const IndexEntry& entry : *index_) *total_ += entry.frame_count;
-    }
+    if (index_) total_ = index_->frame_count();
     if (!arguments_.frames.empty()) {
       wanted_ = parse_frame_range(arguments_.frames);
       if (total_) check_frame_range(*wanted_, *total_, reader_.name());
@@ -168,7 +165,7 @@ class DecodeJob {
   StreamReader reader_;
   std::unique_ptr<FrameSink> sink_;
   ProgressBar bar_;
-  std::optional<std::vector<IndexEntry>> index_;
+  std::optional<StreamMap> index_;
   std::optional<std::uint64_t> total_;          ///< frames of the stream
   std::optional<std::uint64_t> output_frames_;  ///< frames that are to be written
   std::optional<FrameRange> wanted_;

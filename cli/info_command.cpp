@@ -5,11 +5,18 @@
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <tvg/metrics.hpp>
+#include <tvg/survey.hpp>
 
 namespace tvg::cli {
 
@@ -18,82 +25,104 @@ namespace {
 struct InfoArguments {
   std::string input;
   std::string fps = "30";
+  bool bits = false;
   bool json = false;
 };
 
-/// All that a walk over the stream tells.
+/// What only decoding tells.
+struct DecodedFacts {
+  std::array<double, 3> residuals{};               ///< bytes of x, y and z
+  std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
+};
+
+/// All that is shown of a stream.
 struct StreamSummary {
   std::string file;
-  StreamHead head;
-  Metadata metadata;
-  std::vector<ChunkInfo> chunks;
-  std::vector<GopInfo> gops;
-  std::uint64_t meshes = 0;
-  std::uint32_t vertices = 0;  ///< of the last mesh
-  std::uint64_t faces = 0;
-  bool keeps_vertex_order = true;
-  std::uint64_t frames = 0;
-  std::uint64_t vertex_frames = 0;  ///< vertices summed over frames
-  std::uint64_t bytes = 0;
-  std::uint64_t damaged = 0;
-  // Bytes by purpose.
-  double connectivity = 0, order = 0, flags = 0;
-  std::array<double, 3> residuals{};
+  StreamSurvey stream;
+  std::optional<DecodedFacts> decoded;
+  std::uint64_t damages = 0;
 
-  double container() const {
-    return static_cast<double>(bytes) - connectivity - order - flags - residuals[0] - residuals[1] -
-           residuals[2];
+  SurveyedMesh last_mesh() const { return stream.meshes.empty() ? SurveyedMesh() : stream.meshes.back(); }
+  std::optional<std::uint32_t> flagged(const GopInfo& gop) const {
+    if (!decoded) return std::nullopt;
+    const auto entry = decoded->flagged.find(gop.first_frame);
+    return entry == decoded->flagged.end() ? std::nullopt : std::optional(entry->second);
+  }
+  /// Vertices summed over frames.
+  std::uint64_t vertex_frames() const {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < stream.gops.size(); ++i)
+      sum += std::uint64_t{stream.gops[i].frame_count} * stream.meshes[stream.gop_meshes[i]].vertices;
+    return sum;
   }
 };
 
-StreamSummary summarize(const std::string& path) {
+/// Bytes by what they serve; the last takes what is left.
+std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summary) {
+  double connectivity = 0, order = 0, flags = 0;
+  for (const SurveyedMesh& mesh : summary.stream.meshes) {
+    connectivity += static_cast<double>(mesh.parts.connectivity_bytes);
+    order += static_cast<double>(mesh.parts.order_bytes);
+  }
+  for (const GopInfo& gop : summary.stream.gops) flags += static_cast<double>(gop.flag_bytes);
+  std::vector<std::pair<const char*, double>> result = {
+      {"connectivity", connectivity}, {"order", order}, {"flags", flags}};
+  double left = static_cast<double>(summary.stream.bytes) - connectivity - order - flags;
+  if (!summary.decoded) {
+    result.emplace_back("frames_and_container", left);
+    return result;
+  }
+  constexpr std::array<const char*, 3> kNames = {"residuals_x", "residuals_y", "residuals_z"};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.emplace_back(kNames[axis], summary.decoded->residuals[axis]);
+    left -= summary.decoded->residuals[axis];
+  }
+  result.emplace_back("container", left);
+  return result;
+}
+
+DecodedFacts decode_facts(const std::string& path, std::uint64_t& damages) {
   StreamReader reader(path);
   Decoder& decoder = reader.decoder();
   decoder.measure_bits(true);
-  StreamSummary summary;
-  summary.file = reader.name();
-  summary.bytes = 8;
+  DecodedFacts facts;
+  damages = 0;
   for (;;) {
     switch (reader.next()) {
-      case Decoder::Event::kChunk:
-        summary.chunks.push_back(decoder.chunk());
-        summary.bytes += decoder.chunk().bytes;
-        break;
-      case Decoder::Event::kHead:
-        summary.head = decoder.head();
-        break;
-      case Decoder::Event::kMetadata:
-        summary.metadata = decoder.metadata();
-        break;
-      case Decoder::Event::kMesh:
-        ++summary.meshes;
-        summary.vertices = decoder.mesh().vertex_count;
-        summary.faces = decoder.mesh().faces.size();
-        summary.keeps_vertex_order = decoder.mesh_info().keeps_vertex_order;
-        summary.connectivity += static_cast<double>(decoder.mesh_info().connectivity_bytes);
-        summary.order += static_cast<double>(decoder.mesh_info().order_bytes);
-        break;
       case Decoder::Event::kGop:
-        summary.gops.push_back(decoder.gop());
-        summary.flags += static_cast<double>(decoder.gop().flag_bytes);
+        facts.flagged[decoder.gop().first_frame] = decoder.gop().flagged;
         break;
       case Decoder::Event::kFrame:
-        ++summary.frames;
-        summary.vertex_frames += decoder.mesh().vertex_count;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          summary.residuals[axis] += decoder.frame_bits()[axis] / 8;
+        for (std::size_t axis = 0; axis < 3; ++axis) facts.residuals[axis] += decoder.frame_bits()[axis] / 8;
         break;
       case Decoder::Event::kDamage:
-        ++summary.damaged;
+        ++damages;
         break;
       case Decoder::Event::kError:
         throw tool_error(reader.name(), decoder.error());
       case Decoder::Event::kEnd:
-        return summary;
-      case Decoder::Event::kNeedBytes:
+        return facts;
+      default:
         break;
     }
   }
+}
+
+StreamSummary summarize(const std::string& path, bool bits) {
+  if (bits && path == "-") {
+    throw ToolError(ExitStatus::kUsage, "--bits reads the stream twice: it takes a file, not standard input");
+  }
+  StreamSummary summary;
+  StreamReader reader(path);
+  summary.file = reader.name();
+  Result<StreamSurvey> stream = survey([&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+    return Result<std::size_t>(reader.read_from(offset, bytes));
+  });
+  if (!stream) throw tool_error(reader.name(), stream.error());
+  summary.stream = std::move(*stream);
+  summary.damages = summary.stream.findings.size();
+  if (bits) summary.decoded = decode_facts(path, summary.damages);
+  return summary;
 }
 
 const char* predictor_name(Predictor predictor) {
@@ -101,91 +130,96 @@ const char* predictor_name(Predictor predictor) {
   return kNames[static_cast<std::size_t>(predictor)];
 }
 
+nlohmann::json to_json(const GopInfo& gop) {
+  return {{"first_frame", gop.first_frame},
+          {"frame_count", gop.frame_count},
+          {"predictor", predictor_name(gop.predictor)},
+          {"fine_bits", gop.fine_bits},
+          {"coarse_bits", gop.coarse_bits},
+          {"origin", gop.origin},
+          {"step", gop.step},
+          {"bytes", gop.bytes}};
+}
+
 void print_json(const StreamSummary& summary) {
   nlohmann::json json;
+  const StreamSurvey& stream = summary.stream;
   json["file"] = summary.file;
-  json["version"] = fmt::format("{}.{}", summary.head.major, summary.head.minor);
-  const StreamLimits& limits = summary.head.limits;
+  json["version"] = fmt::format("{}.{}", stream.head.major, stream.head.minor);
+  const StreamLimits& limits = stream.head.limits;
   json["limits"] = {{"vertices", limits.vertices},
                     {"faces", limits.faces},
                     {"frames_per_gop", limits.frames_per_gop},
                     {"packet_bytes", limits.packet_bytes},
                     {"decoder_memory", limits.decoder_memory}};
-  json["metadata"] = summary.metadata;
-  json["bytes"] = summary.bytes;
-  json["frames"] = summary.frames;
-  json["vertices"] = summary.vertices;
-  json["faces"] = summary.faces;
-  json["meshes"] = summary.meshes;
-  json["keeps_vertex_order"] = summary.keeps_vertex_order;
-  json["damages"] = summary.damaged;
-  json["bytes_by_purpose"] = {{"connectivity", summary.connectivity},
-                              {"order", summary.order},
-                              {"flags", summary.flags},
-                              {"residuals_x", summary.residuals[0]},
-                              {"residuals_y", summary.residuals[1]},
-                              {"residuals_z", summary.residuals[2]},
-                              {"container", summary.container()}};
-  json["bits_per_coordinate"] = bits_per_coordinate(summary.bytes, summary.vertex_frames, 1);
-  for (const ChunkInfo& chunk : summary.chunks) {
+  json["metadata"] = stream.metadata;
+  json["bytes"] = stream.bytes;
+  json["frames"] = stream.frames();
+  json["vertices"] = summary.last_mesh().vertices;
+  json["faces"] = summary.last_mesh().faces;
+  json["meshes"] = stream.meshes.size();
+  json["keeps_vertex_order"] = summary.last_mesh().parts.keeps_vertex_order;
+  json["damages"] = summary.damages;
+  for (const auto& [purpose, bytes] : purposes(summary)) json["bytes_by_purpose"][purpose] = bytes;
+  json["bits_per_coordinate"] = bits_per_coordinate(stream.bytes, summary.vertex_frames(), 1);
+  for (const ChunkInfo& chunk : stream.chunks) {
     json["chunks"].push_back({{"type", chunk.type}, {"offset", chunk.offset}, {"bytes", chunk.bytes}});
   }
-  for (const GopInfo& gop : summary.gops) {
-    json["gops"].push_back({{"first_frame", gop.first_frame},
-                            {"frame_count", gop.frame_count},
-                            {"predictor", predictor_name(gop.predictor)},
-                            {"fine_bits", gop.fine_bits},
-                            {"coarse_bits", gop.coarse_bits},
-                            {"origin", gop.origin},
-                            {"step", gop.step},
-                            {"flagged", gop.flagged},
-                            {"bytes", gop.bytes}});
+  for (const GopInfo& gop : stream.gops) {
+    json["gops"].push_back(to_json(gop));
+    if (const auto flagged = summary.flagged(gop)) json["gops"].back()["flagged"] = *flagged;
   }
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void print_purposes(const StreamSummary& summary) {
-  const auto line = [&summary](const char* purpose, double bytes) {
-    const double coordinates = 3 * static_cast<double>(summary.vertex_frames);
-    fmt::print("  {:<14}{:>12.0f} B {:>7.2f} %", purpose, bytes,
-               100 * bytes / static_cast<double>(summary.bytes));
-    fmt::print("{:>10.4f} bits per coordinate\n", coordinates > 0 ? 8 * bytes / coordinates : 0.0);
-  };
+  const double coordinates = 3 * static_cast<double>(summary.vertex_frames());
+  const auto total = static_cast<double>(summary.stream.bytes);
+  std::vector<std::pair<const char*, double>> lines = purposes(summary);
+  lines.emplace_back("total", total);
   fmt::print("\nwhere the bytes go\n");
-  line("connectivity", summary.connectivity);
-  line("vertex order", summary.order);
-  line("flags", summary.flags);
-  line("residuals x", summary.residuals[0]);
-  line("residuals y", summary.residuals[1]);
-  line("residuals z", summary.residuals[2]);
-  line("container", summary.container());
-  line("total", static_cast<double>(summary.bytes));
+  for (const auto& [purpose, bytes] : lines) {
+    std::string name = purpose;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    fmt::print("  {:<21}{:>12.0f} B {:>7.2f} %{:>10.4f} bits per coordinate\n", name, bytes,
+               100 * bytes / total, coordinates > 0 ? 8 * bytes / coordinates : 0.0);
+  }
 }
 
-void print_text(const StreamSummary& summary) {
-  fmt::print("{}: TVG {}.{}, {}\n", summary.file, summary.head.major, summary.head.minor,
-             readable_bytes(summary.bytes));
-  fmt::print("  {} frames in {} GOPs, {} vertices, {} faces, vertex order {}\n", summary.frames,
-             summary.gops.size(), summary.vertices, summary.faces,
-             summary.keeps_vertex_order ? "kept" : "given up");
-  if (summary.meshes > 1) fmt::print("  {} meshes; the counts are those of the last\n", summary.meshes);
-  fmt::print("  decoding needs at most {} of memory\n", readable_bytes(summary.head.limits.decoder_memory));
-  for (const auto& [key, value] : summary.metadata) fmt::print("  {}: {}\n", key, value);
-  if (summary.damaged > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damaged);
-  print_purposes(summary);
-
-  fmt::print("\nGOPs\n  {:>8} {:>7} {:>10} {:>6} {:>9} {:>9} {:>12}\n", "first", "frames", "predictor",
-             "bits", "flagged", "step", "bytes");
-  for (const GopInfo& gop : summary.gops) {
+void print_gops(const StreamSummary& summary) {
+  const StreamSurvey& stream = summary.stream;
+  fmt::print("\nGOPs\n  {:>8} {:>7} {:>10} {:>6} {:>9} {:>12} {:>9}\n", "first", "frames", "predictor",
+             "bits", "step", "bytes", summary.decoded ? "flagged" : "");
+  for (std::size_t i = 0; i < stream.gops.size(); ++i) {
+    const GopInfo& gop = stream.gops[i];
     const std::string bits = gop.fine_bits == gop.coarse_bits
                                  ? fmt::format("{}", gop.fine_bits)
                                  : fmt::format("{}:{}", gop.fine_bits, gop.coarse_bits);
-    const double share = 100.0 * gop.flagged / std::max(1u, summary.vertices);
-    fmt::print("  {:>8} {:>7} {:>10} {:>6} {:>7.1f} % {:>9.4g} {:>12}\n", gop.first_frame, gop.frame_count,
-               predictor_name(gop.predictor), bits, share, gop.step, gop.bytes);
+    std::string flagged;
+    if (const auto count = summary.flagged(gop))
+      flagged = fmt::format("{:>7.1f} %", 100.0 * *count / stream.meshes[stream.gop_meshes[i]].vertices);
+    fmt::print("  {:>8} {:>7} {:>10} {:>6} {:>9.4g} {:>12} {}\n", gop.first_frame, gop.frame_count,
+               predictor_name(gop.predictor), bits, gop.step, gop.bytes, flagged);
   }
+}
+
+void print_text(const StreamSummary& summary) {
+  const StreamSurvey& stream = summary.stream;
+  const SurveyedMesh mesh = summary.last_mesh();
+  fmt::print("{}: TVG {}.{}, {}\n", summary.file, stream.head.major, stream.head.minor,
+             readable_bytes(stream.bytes));
+  fmt::print("  {} frames in {} GOPs, {} vertices, {} faces, vertex order {}\n", stream.frames(),
+             stream.gops.size(), mesh.vertices, mesh.faces,
+             mesh.parts.keeps_vertex_order ? "kept" : "given up");
+  if (stream.meshes.size() > 1)
+    fmt::print("  {} meshes; the counts are those of the last\n", stream.meshes.size());
+  fmt::print("  decoding needs at most {} of memory\n", readable_bytes(stream.head.limits.decoder_memory));
+  for (const auto& [key, value] : stream.metadata) fmt::print("  {}: {}\n", key, value);
+  if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
+  print_purposes(summary);
+  print_gops(summary);
   fmt::print("\nchunks\n");
-  for (const ChunkInfo& chunk : summary.chunks) {
+  for (const ChunkInfo& chunk : stream.chunks) {
     fmt::print("  {} at {:>10}, {:>10} bytes\n", chunk.type, chunk.offset, chunk.bytes);
   }
 }
@@ -200,13 +234,15 @@ void add_info_command(CLI::App& tool) {
       ->required();
   command.add_option("--fps", arguments->fps, "count the frames of a scene's clips at this rate")
       ->capture_default_str();
+  command.add_flag("--bits", arguments->bits,
+                   "decode the stream to tell what x, y and z take and how many vertices are flagged");
   command.add_flag("--json", arguments->json, "print everything as JSON");
   command.callback([arguments] {
     if (has_scene_info(arguments->input)) {
       print_scene_info(arguments->input, arguments->fps, arguments->json);
       return;
     }
-    const StreamSummary summary = summarize(arguments->input);
+    const StreamSummary summary = summarize(arguments->input, arguments->bits);
     arguments->json ? print_json(summary) : print_text(summary);
   });
 }

@@ -4,9 +4,13 @@
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace tvg::cli {
 
@@ -20,7 +24,19 @@ struct VerifyArguments {
 
 struct Finding {
   Error error;
-  std::uint64_t frames_lost;
+  std::optional<std::uint64_t> frames_lost;  ///< nothing where nobody can know how many
+};
+
+/// What a stream is found to be.
+struct Verdict {
+  std::vector<Finding> findings;
+  std::uint64_t frames = 0;  ///< decoded
+  std::uint64_t lost = 0;    ///< frames, those of unknown number left out
+
+  bool losses_known() const {
+    return std::all_of(findings.begin(), findings.end(),
+                       [](const Finding& finding) { return finding.frames_lost.has_value(); });
+  }
 };
 
 nlohmann::json to_json(const Finding& finding) {
@@ -29,64 +45,79 @@ nlohmann::json to_json(const Finding& finding) {
                          {"name", error_name(error.code)},
                          {"message", error.message},
                          {"section", error.section},
-                         {"frames_lost", finding.frames_lost},
+                         {"frames_lost", nullptr},
                          {"offset", nullptr},
                          {"frame", nullptr}};
+  if (finding.frames_lost) json["frames_lost"] = *finding.frames_lost;
   if (error.byte_offset) json["offset"] = *error.byte_offset;
   if (error.frame) json["frame"] = *error.frame;
   return json;
 }
 
-void run_verify(const VerifyArguments& arguments) {
-  StreamReader reader(arguments.input);
+Verdict read_all(StreamReader& reader, bool quiet) {
   const Decoder& decoder = reader.decoder();
-  std::vector<Finding> findings;
-  std::uint64_t frames = 0;
-  std::uint64_t lost = 0;
-  {
-    ProgressBar bar("verifying", arguments.quiet);
-    for (bool more = true; more;) {
-      switch (reader.next()) {
-        case Decoder::Event::kFrame:
-          bar.update(++frames, std::nullopt);
-          break;
-        case Decoder::Event::kDamage:
-          findings.push_back({decoder.damage().error, decoder.damage().frame_count});
-          lost += decoder.damage().frame_count;
-          break;
-        case Decoder::Event::kError:
-          findings.push_back({decoder.error(), 0});
-          more = false;
-          break;
-        case Decoder::Event::kEnd:
-          more = false;
-          break;
-        default:
-          break;
+  Verdict verdict;
+  ProgressBar bar("verifying", quiet);
+  for (;;) {
+    switch (reader.next()) {
+      case Decoder::Event::kFrame:
+        bar.update(++verdict.frames, std::nullopt);
+        break;
+      case Decoder::Event::kDamage: {
+        const Damage& damage = decoder.damage();
+        verdict.lost += damage.frame_count;
+        verdict.findings.push_back(
+            {damage.error, damage.count_known ? std::optional(damage.frame_count) : std::nullopt});
+        break;
       }
+      case Decoder::Event::kError:
+        verdict.findings.push_back({decoder.error(), 0});
+        return verdict;
+      case Decoder::Event::kEnd:
+        return verdict;
+      default:
+        break;
     }
   }
+}
+
+void print_json(const std::string& name, const Verdict& verdict) {
+  nlohmann::json json = {{"file", name},
+                         {"valid", verdict.findings.empty()},
+                         {"frames", verdict.frames},
+                         {"frames_lost", verdict.lost},
+                         {"losses_known", verdict.losses_known()},
+                         {"findings", nlohmann::json::array()}};
+  for (const Finding& finding : verdict.findings) json["findings"].push_back(to_json(finding));
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::string lost_text(std::optional<std::uint64_t> frames) {
+  if (!frames) return "an unknown number of frames lost: ";
+  return *frames > 0 ? fmt::format("{} frames lost: ", *frames) : "";
+}
+
+void run_verify(const VerifyArguments& arguments) {
+  StreamReader reader(arguments.input);
+  const Verdict verdict = read_all(reader, arguments.quiet);
+  const std::vector<Finding>& findings = verdict.findings;
   if (arguments.json) {
-    nlohmann::json json = {{"file", reader.name()},
-                           {"valid", findings.empty()},
-                           {"frames", frames},
-                           {"frames_lost", lost},
-                           {"findings", nlohmann::json::array()}};
-    for (const Finding& finding : findings) json["findings"].push_back(to_json(finding));
-    fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    print_json(reader.name(), verdict);
   } else {
     for (std::size_t i = 0; i < findings.size(); ++i) {
-      fmt::print("{}. {}{}\n", i + 1,
-                 findings[i].frames_lost > 0 ? fmt::format("{} frames lost: ", findings[i].frames_lost) : "",
-                 findings[i].error.describe());
+      fmt::print("{}. {}{}\n", i + 1, lost_text(findings[i].frames_lost), findings[i].error.describe());
     }
     if (findings.empty() && !arguments.quiet) {
-      fmt::print("{}: valid, {} frames decode to what was encoded\n", reader.name(), frames);
+      fmt::print("{}: valid, {} frames decode to what was encoded\n", reader.name(), verdict.frames);
     }
   }
   if (!findings.empty()) {
-    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: {} findings, {} frames decoded, {} lost",
-                                                           reader.name(), findings.size(), frames, lost));
+    const std::string lost = verdict.losses_known() ? fmt::format("{}", verdict.lost)
+                             : verdict.lost > 0     ? fmt::format("at least {}", verdict.lost)
+                                                    : "an unknown number";
+    throw ToolError(ExitStatus::kInvalidInput,
+                    fmt::format("{}: {} findings, {} frames decoded, {} lost", reader.name(), findings.size(),
+                                verdict.frames, lost));
   }
 }
 

@@ -56,9 +56,7 @@ std::optional<std::uint64_t> count_frames(std::ifstream& file, std::uint64_t siz
   if (!range || range->size > kMostIndexBytes) return std::nullopt;
   const Result<std::vector<IndexEntry>> index = parse_index(read_at(file, range->offset, range->size));
   if (!index) return std::nullopt;
-  std::uint64_t frames = 0;
-  for (const IndexEntry& entry : *index) frames += entry.frame_count;
-  return frames;
+  return tvg::count_frames(*index);
 }
 
 /// Head and metadata are at the very beginning; the decoder is not asked for more.

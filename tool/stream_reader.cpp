@@ -2,6 +2,7 @@
 
 #include "tool/tool_error.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -79,7 +80,23 @@ std::vector<std::uint8_t> StreamReader::read_at(std::uint64_t offset, std::size_
   return bytes;
 }
 
-std::optional<std::vector<IndexEntry>> StreamReader::read_index() {
+std::size_t StreamReader::read_from(std::uint64_t offset, std::span<std::uint8_t> target) {
+  if (size_) {
+    move_to(offset, SEEK_SET);
+    return read_some(target.data(), target.size());
+  }
+  while (read_to_ < offset) {
+    const std::size_t count = read_some(
+        piece_.data(), static_cast<std::size_t>(std::min<std::uint64_t>(piece_.size(), offset - read_to_)));
+    if (count == 0) return 0;
+    read_to_ += count;
+  }
+  const std::size_t count = read_some(target.data(), target.size());
+  read_to_ += count;
+  return count;
+}
+
+std::optional<StreamMap> StreamReader::read_index() {
   if (!size_ || *size_ < kTailBytes) return std::nullopt;
   const Result<ByteRange> range = locate_index(read_at(*size_ - kTailBytes, kTailBytes), *size_);
   if (!range || range->size > kMaxIndexBytes) return std::nullopt;
@@ -87,7 +104,7 @@ std::optional<std::vector<IndexEntry>> StreamReader::read_index() {
       parse_index(read_at(range->offset, static_cast<std::size_t>(range->size)));
   if (!index) return std::nullopt;
   decoder_.set_index(*index);
-  return *index;
+  return StreamMap(*index);
 }
 
 void StreamReader::seek(std::uint64_t frame) {

@@ -13,10 +13,7 @@ bool is_stream_file(const std::string& path) {
 
 StreamSource::StreamSource(std::string path) : path_(std::move(path)) {
   open();
-  if (const auto index = reader_->read_index()) {
-    frame_count_ = 0;
-    for (const IndexEntry& entry : *index) *frame_count_ += entry.frame_count;
-  }
+  if (const auto index = reader_->read_index()) frame_count_ = index->frame_count();
 }
 
 void StreamSource::open() {

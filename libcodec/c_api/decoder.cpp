@@ -306,8 +306,7 @@ tvg_code tvg_decoder_load_index(tvg_decoder* decoder, const void* bytes, size_t 
         tvg::parse_index({static_cast<const std::uint8_t*>(bytes), size});
     if (!index) return fail(*decoder, index.error());
     decoder->decoder.set_index(*index);
-    decoder->frame_count = 0;
-    for (const tvg::IndexEntry& entry : *index) decoder->frame_count += entry.frame_count;
+    decoder->frame_count = tvg::count_frames(*index);
     return TVG_OK;
   });
 }

@@ -1,5 +1,7 @@
 #include "modes/elp_decode.hpp"
 
+#include "base/allocation.hpp"
+#include "base/stream_error.hpp"
 #include "entropy/range_coder.hpp"
 #include "modes/elp_take.hpp"
 #include "quantization/flag_coder.hpp"
@@ -11,12 +13,14 @@ namespace tvg {
 
 // format-spec §7.4
 Status ElpDecoder::begin(const GopHeader& header, const CodedMesh& mesh) {
+  const std::size_t vertex_count = mesh.gates.size();
+  if (!can_allocate(vertex_count * (PositionCoder::kBytesPerVertex + 1) + PositionCoder::kMostModelBytes))
+    return out_of_memory();
   mesh_ = &mesh;
   lattice_ = {.origin = header.origin,
               .step = header.step,
               .fine_bits = header.fine_bits,
               .coarse_bits = header.coarse_bits};
-  const std::size_t vertex_count = mesh.gates.size();
   info_ = {.first_frame = header.first_frame,
            .source_frame = header.first_frame,
            .frame_count = header.frame_count,
@@ -32,10 +36,7 @@ Status ElpDecoder::begin(const GopHeader& header, const CodedMesh& mesh) {
     flags_.resize(vertex_count);
     RangeDecoder coder(header.flags);
     code_flags(coder, mesh.gates, flags_);
-    if (!coder.finished()) {
-      return Error{
-          ErrorCode::kMalformed, "the importance flags do not fill their bytes exactly", {}, {}, "§7.4"};
-    }
+    if (!coder.finished()) return malformed("§7.4", "the importance flags do not fill their bytes exactly");
     info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));
   }
   positions_.emplace(Schedule(mesh.gates), flags_, lattice_);

@@ -1,7 +1,7 @@
 #pragma once
 #include "base/checksum.hpp"
 #include "connectivity/mesh_coder.hpp"
-#include "container/layout.hpp"
+#include "container/gop_header.hpp"
 #include "modes/elp.hpp"
 
 #include <array>
@@ -18,7 +18,7 @@ namespace tvg {
 /// Decodes a GOP in mode elp, packet by packet (format-spec §7). Allocates in begin() and not after.
 class ElpDecoder {
  public:
-  /// Begins the GOP with this header. `mesh` must outlive it.
+  /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
   Status begin(const GopHeader& header, const CodedMesh& mesh);
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.

@@ -1,6 +1,6 @@
 #include "modes/elp_encode.hpp"
 
-#include "container/layout.hpp"
+#include "container/gop_header.hpp"
 #include "quantization/flag_coder.hpp"
 
 #include <utility>

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/stream_error.hpp"
 #include "modes/elp_decode.hpp"
 
 #include <utility>
@@ -9,9 +10,6 @@ namespace tvg {
 // format-spec §7.5
 template <class Coder>
 Status ElpDecoder::decode(Coder& coder) {
-  const auto malformed = [](const char* section, const char* message) {
-    return Error{ErrorCode::kMalformed, message, {}, {}, section};
-  };
   positions_->next();
   const bool inside = positions_->code(coder, predictor_of(frames_taken_++, info_.predictor));
   if (!coder.finished()) return malformed("§6.1", "the frame's residuals do not fill its packet exactly");

@@ -1,6 +1,7 @@
 #include "modes/gop_decoder.hpp"
 
 #include "base/byte_io.hpp"
+#include "base/stream_error.hpp"
 
 namespace tvg {
 
@@ -8,11 +9,10 @@ namespace tvg {
 Status GopDecoder::check_digest(Bytes packet) const {
   ByteReader reader(packet);
   const std::uint64_t expected = reader.u64();
-  if (!reader.finished())
-    return Error{ErrorCode::kMalformed, "the GOP's digest has a wrong size", {}, {}, "§4.5"};
+  if (!reader.finished()) return malformed("§4.5", "the GOP's digest has a wrong size");
   if (expected == mode().digest()) return {};
-  return Error{
-      ErrorCode::kDigestMismatch, "the GOP decoded to other values than were encoded", {}, {}, "§7.6"};
+  return stream_error(ErrorCode::kDigestMismatch, "§7.6",
+                      {"the GOP decoded to other values than were encoded"});
 }
 
 }  // namespace tvg

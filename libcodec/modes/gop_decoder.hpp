@@ -15,7 +15,7 @@ namespace tvg {
 /// after.
 class GopDecoder {
  public:
-  /// Begins the GOP with this header. `mesh` must outlive it.
+  /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
   Status begin(const GopHeader& header, const CodedMesh& mesh) { return mode().begin(header, mesh); }
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.

@@ -1,7 +1,8 @@
 #include "modes/gop_encoder.hpp"
 
 #include "base/checksum.hpp"
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/packet.hpp"
 #include "modes/elp_encode.hpp"
 
 #include <algorithm>

@@ -29,6 +29,10 @@ class PlaneCoder {
   static_assert(kPlanes >= 1 && kPlanes <= std::tuple_size_v<Quad>);
 
  public:
+  /// What a coder allocates, all of it when it is made: for each vertex, and beside that.
+  static constexpr std::size_t kBytesPerVertex = 3 * sizeof(Quad);
+  static constexpr std::size_t kMostModelBytes = ResidualModels::bytes(Context::set_count(true));
+
   /// What `schedule` refers to and `flags` ([vertex], empty when the lattice is not hybrid) must outlive the
   /// coder.
   PlaneCoder(const Schedule& schedule, std::span<const std::uint8_t> flags, const Lattice& lattice)

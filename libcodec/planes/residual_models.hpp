@@ -27,6 +27,9 @@ class ResidualModels {
   /// `set_count` independent sets of models, all in their initial state.
   explicit ResidualModels(std::size_t set_count) : cells_(set_count * kLevels) {}
 
+  /// What so many sets take of memory.
+  static constexpr std::size_t bytes(std::size_t set_count) { return set_count * kLevels * sizeof(Cell); }
+
   /// Codes one residual and returns it; a decoder ignores the argument. What a damaged stream yields is
   /// within +-2^27.
   template <class Coder>

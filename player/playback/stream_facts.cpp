@@ -16,16 +16,17 @@ constexpr std::size_t kMostPackets = std::size_t{1} << 14;
 
 void StreamFacts::use_index(const std::vector<IndexEntry>& entries, std::uint64_t end) {
   marks_.clear();
-  std::uint64_t frame = 0;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const IndexEntry& entry = entries[i];
+  const StreamMap map(entries);
+  const std::span<const StreamMap::Place> places = map.places();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const IndexEntry& entry = places[i].entry;
     if (entry.kind != IndexEntry::Kind::kGop) continue;
-    const std::uint64_t next = i + 1 < entries.size() ? entries[i + 1].offset : end;
-    marks_.push_back({frame, entry.frame_count, entry.offset, next > entry.offset ? next - entry.offset : 0});
-    frame += entry.frame_count;
+    const std::uint64_t next = i + 1 < places.size() ? places[i + 1].entry.offset : end;
+    marks_.push_back({places[i].first_frame, entry.frame_count, entry.offset,
+                      next > entry.offset ? next - entry.offset : 0});
   }
   has_index_ = true;
-  frame_count_ = frame;
+  frame_count_ = map.frame_count();
   shared_marks_.reset();
 }
 

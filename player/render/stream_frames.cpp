@@ -56,24 +56,16 @@ class StreamFrames final : public ShownFrames {
     number_ = lost_end_ = gop_ = 0;
     const auto index = reader_->read_index();
     if (index) {
-      total_ = 0;
-      for (const IndexEntry& entry : *index) *total_ += entry.frame_count;
+      total_ = index->frame_count();
       if (spec_.frames) check_frame_range(*spec_.frames, *total_, reader_->name());
     }
     while (!mesh_ && !ended_) pull();
     if (!mesh_) throw ToolError(ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
     if (!spec_.frames) return;
     number_ = spec_.frames->first;
-    if (number_ > 0 && index) reader_->seek(spec_.whole_gops ? begin_of_gop(*index, number_) : number_);
-  }
-
-  static std::uint64_t begin_of_gop(const std::vector<IndexEntry>& index, std::uint64_t number) {
-    std::uint64_t begin = 0;
-    for (const IndexEntry& entry : index) {
-      if (begin + entry.frame_count > number) break;
-      begin += entry.frame_count;
-    }
-    return begin;
+    if (number_ == 0 || !index) return;
+    const StreamMap::Place* const gop = spec_.whole_gops ? index->gop_for(number_) : nullptr;
+    reader_->seek(gop != nullptr ? gop->first_frame : number_);
   }
 
   bool past_range(std::uint64_t number) const {

@@ -58,9 +58,15 @@ TEST_F(ToolTest, InfoDocumentsTheStreamAsJson) {
   EXPECT_EQ(info["gops"][2]["frame_count"], 2);
   EXPECT_EQ(info["gops"][0]["fine_bits"], 13);
   EXPECT_EQ(info["gops"][0]["coarse_bits"], 11);
-  double sum = 0;
-  for (const auto& [purpose, bytes] : info["bytes_by_purpose"].items()) sum += bytes.get<double>();
-  EXPECT_NEAR(sum, info["bytes"].get<double>(), 0.01);
+  const auto decoded = json("tvg info hand.tvg --json --bits");
+  EXPECT_FALSE(info["bytes_by_purpose"].contains("residuals_x"));
+  EXPECT_GT(decoded["bytes_by_purpose"]["residuals_x"], 0);
+  EXPECT_GT(decoded["gops"][0]["flagged"], 0);
+  for (const auto& purposes : {info["bytes_by_purpose"], decoded["bytes_by_purpose"]}) {
+    double sum = 0;
+    for (const auto& [purpose, bytes] : purposes.items()) sum += bytes.get<double>();
+    EXPECT_NEAR(sum, info["bytes"].get<double>(), 0.01);
+  }
   std::uint64_t chunk_bytes = 8;
   for (const auto& chunk : info["chunks"]) chunk_bytes += chunk["bytes"].get<std::uint64_t>();
   EXPECT_EQ(chunk_bytes, info["bytes"]);
@@ -106,7 +112,7 @@ TEST_F(ToolTest, FramesPicksTheSameFrames) {
 
 TEST_F(ToolTest, HybridErrorIsWithinHalfAStepOfEachLattice) {
   good("tvg encode hand.obj hand.pc2 -o hand.tvg --bits 13:9 --important 30%");
-  const auto gop = json("tvg info hand.tvg --json")["gops"][0];
+  const auto gop = json("tvg info hand.tvg --json --bits")["gops"][0];
   const double step = gop["step"];
   const double share = gop["flagged"].get<double>() / hand_.mesh.vertex_count;
   EXPECT_NEAR(share, 0.3, 0.01);

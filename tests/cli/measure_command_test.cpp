@@ -77,7 +77,7 @@ TEST_F(MeasureCommand, TellsHowTheCostIsSpread) {
 TEST_F(MeasureCommand, CutsGopsAndFlagsAsEncodingDoes) {
   const std::string options = " --frames 2-11 --gop 4 --measure curv+velocity --important 20% -q";
   good("tvg encode hand.obj hand.pc2 -o hand.tvg --bits 12:9" + options);
-  const auto stream = json("tvg info hand.tvg --json");
+  const auto stream = json("tvg info hand.tvg --json --bits");
   const auto report = json("tvg measure hand.obj hand.pc2 --json" + options);
   EXPECT_EQ(report["frames"], 10);
   ASSERT_EQ(report["gops"].size(), 3u);

@@ -29,8 +29,8 @@ struct Verdict {
   std::size_t memory = 0;                                        ///< bytes, the most at once
 
   bool reported(std::uint64_t frame) const;
-  /// Nothing was reported, and yet frames are wrong or missing.
-  bool silent(const Original& original) const;
+  /// Nothing was reported: right only where nothing is wrong with the stream, whatever frames came out.
+  bool called_valid() const;
 };
 
 /// Decodes `stream`, pushed in pieces of `piece` bytes. Allocations above `memory_cap` bytes fail.
@@ -39,7 +39,7 @@ Verdict judge(const Original& original, std::span<const std::uint8_t> stream, st
 
 /// How many streams of a series ended in which way.
 struct Tally {
-  std::size_t cases = 0, refused = 0, partly_lost = 0, unharmed = 0, silent = 0;
+  std::size_t cases = 0, refused = 0, partly_lost = 0, unharmed = 0, called_valid = 0;
   std::size_t wrong_frames = 0;  ///< given out, and reported
   std::size_t most_memory = 0;
 

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <tvg/decoder.hpp>
+#include <tvg/types.hpp>
+
+namespace tvg {
+
+/// A mesh chunk, by its counts.
+struct SurveyedMesh {
+  std::uint32_t vertices = 0;
+  std::uint32_t faces = 0;
+  MeshInfo parts;
+};
+
+/// What a stream's structures say without being decoded.
+struct StreamSurvey {
+  StreamHead head;
+  Metadata metadata;
+  std::vector<ChunkInfo> chunks;
+  std::vector<SurveyedMesh> meshes;
+  std::vector<GopInfo> gops;              ///< `flagged` is not known: it takes decoding
+  std::vector<std::uint32_t> gop_meshes;  ///< [GOP], number in `meshes` of the mesh it belongs to
+  std::vector<Error> findings;            ///< what is wrong as far as that can be seen
+  std::uint64_t bytes = 0;                ///< of the signature and all chunks
+
+  std::uint64_t frames() const;
+};
+
+/// Reads bytes of a stream from `offset` on into the span: how many there were, 0 only at the end. Offsets
+/// ascend; those between need not be read.
+using StreamBytes = std::function<Result<std::size_t>(std::uint64_t offset, std::span<std::uint8_t> bytes)>;
+
+/// Goes over a stream by its chunk headers: reads heads, metadata, meshes and index whole, of GOPs the header
+/// packet, and passes over what is left. Errors are those of `read` and those that make a stream unreadable:
+/// kNotTvg, kUnsupportedVersion, kTruncated, kMalformed, kLimitExceeded, kOutOfMemory; what can be read on
+/// behind is a finding.
+Result<StreamSurvey> survey(const StreamBytes& read, const DecoderLimits& limits = {});
+
+}  // namespace tvg

@@ -1,0 +1,134 @@
+#include "base/stream_error.hpp"
+#include "container/chunk_reader.hpp"
+
+#include <new>
+#include <string>
+#include <utility>
+
+#include <tvg/survey.hpp>
+
+namespace tvg {
+
+namespace {
+
+/// Small: most of what is read of a GOP is passed over.
+constexpr std::size_t kPieceBytes = std::size_t{1} << 13;
+
+class Surveyor {
+ public:
+  Surveyor(const StreamBytes& read, const DecoderLimits& limits)
+      : read_(read), reader_(limits), piece_(kPieceBytes) {}
+
+  Result<StreamSurvey> run() {
+    using Event = ChunkReader::Event;
+    result_.bytes = kSignature.size();
+    for (;;) {
+      const Event event = reader_.next();
+      if (event == Event::kEnd) return std::move(result_);
+      if (event == Event::kFailed) return reader_.error();
+      if (event == Event::kNeedBytes) {
+        if (Status status = read_on(); !status.ok()) return status.error();
+      } else {
+        take(event);
+      }
+    }
+  }
+
+ private:
+  Status read_on() {
+    reader_.skip();
+    const Result<std::size_t> got = read_(reader_.input_offset(), piece_);
+    if (!got) return got.error();
+    if (*got == 0) reader_.finish();
+    reader_.push(Bytes(piece_).first(*got));
+    return {};
+  }
+
+  void take(ChunkReader::Event event) {
+    switch (event) {
+      case ChunkReader::Event::kChunk: {
+        const ChunkHeader& chunk = reader_.chunk();
+        result_.chunks.push_back({std::string(text(chunk.type)), reader_.chunk_offset(), chunk.total_size()});
+        result_.bytes += chunk.total_size();
+        break;
+      }
+      case ChunkReader::Event::kHead:
+        result_.head = reader_.head();
+        break;
+      case ChunkReader::Event::kMetadata:
+        result_.metadata = std::move(reader_.metadata());
+        break;
+      case ChunkReader::Event::kMesh: {
+        const MeshLayout& mesh = reader_.mesh();
+        result_.meshes.push_back({mesh.vertex_count,
+                                  mesh.face_count,
+                                  {mesh.connectivity.size(), mesh.order.size(), mesh.keeps_order}});
+        met_.push_back({IndexEntry::Kind::kMesh, reader_.chunk_offset(), 0});
+        break;
+      }
+      case ChunkReader::Event::kGop:
+        take_gop();
+        reader_.pass_over();
+        break;
+      case ChunkReader::Event::kOrphan:
+        find(malformed("§3.4", "a GOP comes before any mesh"));
+        break;
+      case ChunkReader::Event::kIndex:
+        if (reader_.index() != met_) find(malformed("§4.6", "the index does not match the stream"));
+        break;
+      case ChunkReader::Event::kProblem:
+        find(std::move(reader_.problem().error));
+        break;
+      default:
+        break;
+    }
+  }
+
+  void take_gop() {
+    const GopHeader& header = reader_.gop();
+    GopInfo gop;
+    gop.first_frame = frames_;
+    gop.source_frame = header.first_frame;
+    gop.frame_count = header.frame_count;
+    gop.predictor = static_cast<Predictor>(header.predictor);
+    gop.fine_bits = header.fine_bits;
+    gop.coarse_bits = header.coarse_bits;
+    gop.origin = header.origin;
+    gop.step = header.step;
+    gop.bytes = reader_.chunk().total_size();
+    gop.header_bytes = reader_.content().size() - header.flags.size();
+    gop.flag_bytes = header.flags.size();
+    result_.gops.push_back(gop);
+    result_.gop_meshes.push_back(static_cast<std::uint32_t>(result_.meshes.size() - 1));
+    frames_ += header.frame_count;
+    met_.push_back({IndexEntry::Kind::kGop, reader_.chunk_offset(), header.frame_count});
+  }
+
+  void find(Error error) {
+    if (!error.byte_offset) error.byte_offset = reader_.chunk_offset();
+    result_.findings.push_back(std::move(error));
+  }
+
+  const StreamBytes& read_;
+  ChunkReader reader_;
+  std::vector<std::uint8_t> piece_;
+  StreamSurvey result_;
+  std::vector<IndexEntry> met_;  ///< what the index should say
+  std::uint64_t frames_ = 0;
+};
+
+}  // namespace
+
+std::uint64_t StreamSurvey::frames() const {
+  return gops.empty() ? 0 : gops.back().first_frame + gops.back().frame_count;
+}
+
+Result<StreamSurvey> survey(const StreamBytes& read, const DecoderLimits& limits) {
+  try {
+    return Surveyor(read, limits).run();
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+}  // namespace tvg

@@ -1,0 +1,78 @@
+#include "tests/codec/codec_toolbox.hpp"
+#include "tests/conformance/streams.hpp"
+
+#include <tvg/survey.hpp>
+
+namespace tvg::test {
+namespace {
+
+struct Surveyed {
+  Result<StreamSurvey> result;
+  std::size_t bytes_read = 0;
+};
+
+Surveyed survey_stream(const Stream& stream) {
+  std::size_t count = 0;
+  Result<StreamSurvey> result = survey([&](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+    const std::size_t begin = std::min(stream.size(), static_cast<std::size_t>(offset));
+    const std::size_t size = std::min(bytes.size(), stream.size() - begin);
+    std::copy_n(stream.begin() + static_cast<std::ptrdiff_t>(begin), size, bytes.begin());
+    count += size;
+    return Result<std::size_t>(size);
+  });
+  return {std::move(result), count};
+}
+
+TEST(Survey, SaysWhatDecodingSays) {
+  for (const conformance::ConformanceStream& entry : conformance::conformance_streams()) {
+    SCOPED_TRACE(entry.name);
+    const Stream stream = entry.make();
+    const DecodedStream decoded = decode_stream(stream);
+    const Surveyed surveyed = survey_stream(stream);
+    ASSERT_TRUE(surveyed.result);
+    const StreamSurvey& seen = *surveyed.result;
+    EXPECT_TRUE(seen.findings.empty());
+    EXPECT_EQ(seen.bytes, stream.size());
+    EXPECT_EQ(seen.head.limits, decoded.head.limits);
+    EXPECT_EQ(seen.metadata, decoded.metadata);
+    EXPECT_EQ(seen.frames(), decoded.frames.size());
+    ASSERT_EQ(seen.meshes.size(), decoded.meshes.size());
+    for (std::size_t i = 0; i < seen.meshes.size(); ++i) {
+      EXPECT_EQ(seen.meshes[i].vertices, decoded.meshes[i].vertex_count);
+      EXPECT_EQ(seen.meshes[i].faces, decoded.meshes[i].faces.size());
+    }
+    for (const GopInfo& gop : seen.gops) {
+      const GopInfo& other = decoded.frames[gop.first_frame].gop;
+      EXPECT_EQ(gop.source_frame, other.source_frame);
+      EXPECT_EQ(gop.frame_count, other.frame_count);
+      EXPECT_EQ(gop.step, other.step);
+      EXPECT_EQ(gop.bytes, other.bytes);
+      EXPECT_EQ(gop.header_bytes, other.header_bytes);
+      EXPECT_EQ(gop.flag_bytes, other.flag_bytes);
+    }
+  }
+}
+
+TEST(Survey, ReadsLittleOfLongGops) {
+  std::mt19937 random(1);
+  EncodeOptions options;
+  options.gop_frames = 200;
+  const Stream stream = encode_sequence(random_sequence(grid(20, 20), 400, random), options);
+  const Surveyed surveyed = survey_stream(stream);
+  ASSERT_TRUE(surveyed.result);
+  EXPECT_EQ(surveyed.result->frames(), 400u);
+  EXPECT_LT(surveyed.bytes_read, stream.size() / 4);
+}
+
+TEST(Survey, FindsWhatIsOutOfPlaceAndRefusesWhatIsCut) {
+  Stream stream = conformance::make_stream("gops");
+  const Stream cut(stream.begin(), stream.end() - 1);
+  EXPECT_FALSE(survey_stream(cut).result);
+  stream[stream.size() - 60] ^= 1;  // in the index
+  const Surveyed surveyed = survey_stream(stream);
+  ASSERT_TRUE(surveyed.result);
+  EXPECT_FALSE(surveyed.result->findings.empty());
+}
+
+}  // namespace
+}  // namespace tvg::test
