@@ -2,7 +2,7 @@
 #include "connectivity/connectivity_encode.hpp"
 #include "corpus/corpus.hpp"
 #include "entropy/range_coder.hpp"
-#include "planes/frame_coder.hpp"
+#include "planes/plane_coder.hpp"
 #include "quantization/lattice_over_encode.hpp"
 
 #include <array>
@@ -35,7 +35,6 @@ class TracingCoder {
   }
   bool code(AdaptiveBit& /*model*/, bool bit) { return bit; }
   std::uint32_t code_raw(std::uint32_t value, int /*count*/) { return value; }
-  void begin_coordinate(std::size_t /*axis*/) {}
 
   std::size_t model_count() const { return numbers_.size(); }
 
@@ -60,17 +59,18 @@ Trace trace_of(const Sequence& sequence, int bits) {
   BoundingBox box;
   for (const FramePositions& frame : sequence.frames) box.extend(frame);
   const Lattice lattice = *lattice_over(box, bits, bits, {});
-  FrameCoder frames(mesh.connectivity.gates, {}, lattice, Predictor::kElp);
+  PlaneCoder<3> planes(Schedule(mesh.connectivity.gates), {}, lattice);
+  Predictor predictor = Predictor::kSpace;
   TracingCoder coder;
   for (const FramePositions& frame : sequence.frames) {
-    frames.next_frame();
+    planes.next();
     for (std::size_t v = 0; v < mesh.order.size(); ++v) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        frames.indices()[v][axis] =
+        planes.indices()[v][axis] =
             quantize(frame[3 * std::size_t{mesh.order[v]} + axis], lattice.origin[axis], lattice);
       }
     }
-    frames.code(coder);
+    planes.code(coder, std::exchange(predictor, Predictor::kElp));
   }
   return {std::move(coder.trace), coder.model_count(),
           static_cast<double>(sequence.frames.size()) * sequence.mesh.vertex_count};

@@ -110,7 +110,7 @@ std::optional<Decoder::Event> Decoder::State::begin_gop() {
 
 std::optional<Decoder::Event> Decoder::State::decode_frame() {
   const Bytes packet = reader.content();
-  Status decoded = measures_bits ? gop.decode_frame(packet, frame_bits) : gop.decode_frame(packet);
+  Status decoded = measured_take != nullptr ? (gop.*measured_take)(packet, frame_bits) : gop.take(packet);
   if (!decoded.ok()) {  // the checksum fits, so what the packet was decoded from may be wrong already
     frames.advance(frames_left());
     reader.reject();
@@ -231,9 +231,6 @@ Result<std::uint64_t> Decoder::seek(std::uint64_t frame) {
 }
 std::uint64_t Decoder::skip() {
   return state_->skip();
-}
-void Decoder::measure_bits(bool on) {
-  state_->measures_bits = on;
 }
 const GopInfo& Decoder::gop() const {
   return state_->gop_info;

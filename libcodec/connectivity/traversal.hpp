@@ -1,6 +1,7 @@
 #pragma once
 #include "connectivity/border.hpp"
 #include "connectivity/connectivity.hpp"
+#include "entropy/code_bits.hpp"
 #include "entropy/range_coder.hpp"
 
 #include <algorithm>
@@ -31,10 +32,11 @@ inline constexpr int kOperationCount = 6;
 template <class Coder>
 bool code_padding(Coder& coder, std::uint64_t vertex_count, std::uint64_t face_count, bool padded) {
   if (coder.code_raw(padded, 1) == 0) return true;
+  constexpr std::uint64_t kAtOnce = 30;  // whole pieces, so that the bytes are those of one long number
   for (std::uint64_t left = (vertex_count + face_count + 15) / 16; left > 0;) {
-    const int bits = left < 15 ? static_cast<int>(left) : 15;
-    if (coder.code_raw(0, bits) != 0) return false;
-    left -= static_cast<std::uint64_t>(bits);
+    const std::uint64_t bits = std::min(left, kAtOnce);
+    if (code_bits(coder, 0, static_cast<int>(bits)) != 0) return false;
+    left -= bits;
   }
   return true;
 }
@@ -102,14 +104,7 @@ class ReferenceModel {
   /// Any of the `seen` vertices (at least one); `seen` or more where the stream is malformed.
   template <class Coder>
   static std::uint32_t code_any(Coder& coder, std::uint32_t seen, std::uint32_t vertex) {
-    const int bits = std::bit_width(seen - 1);
-    std::uint32_t result = 0;
-    for (int left = bits; left > 0;) {
-      const int count = left < 15 ? left : 15;
-      left -= count;
-      result = (result << count) | coder.code_raw((vertex >> left) & ((1u << count) - 1), count);
-    }
-    return result;
+    return code_bits(coder, vertex, std::bit_width(seen - 1));
   }
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 #include "connectivity/connectivity.hpp"
+#include "entropy/code_bits.hpp"
 #include "entropy/range_coder.hpp"
 
 #include <algorithm>
@@ -61,13 +62,8 @@ template <class Coder>
 std::uint32_t code_uniform(Coder& coder, std::uint32_t value, std::uint32_t bound) {
   const int bits = std::bit_width(bound) - 1;
   const std::uint32_t short_codes = static_cast<std::uint32_t>((std::uint64_t{2} << bits) - bound);
-  std::uint32_t head = value < short_codes ? value : (value + short_codes) >> 1;
-  std::uint32_t decoded = 0;
-  for (int left = bits; left > 0;) {
-    const int count = left < 15 ? left : 15;
-    left -= count;
-    decoded = (decoded << count) | coder.code_raw((head >> left) & ((1u << count) - 1), count);
-  }
+  const std::uint32_t head = value < short_codes ? value : (value + short_codes) >> 1;
+  const std::uint32_t decoded = code_bits(coder, head, bits);
   if (decoded < short_codes) return decoded;
   return decoded * 2 + coder.code_raw((value + short_codes) & 1, 1) - short_codes;
 }
@@ -82,13 +78,8 @@ class LengthModel {
     if (coded == 15) coded += coder.code_raw(length - 15, 5);
     if (coded <= 1) return coded;
     if (coded > 32) return 0xFFFFFFFF;
-    std::uint32_t result = 1;
-    for (int left = static_cast<int>(coded) - 1; left > 0;) {
-      const int count = left < 15 ? left : 15;
-      left -= count;
-      result = (result << count) | coder.code_raw((value >> left) & ((1u << count) - 1), count);
-    }
-    return result;
+    const int below = static_cast<int>(coded) - 1;
+    return (1u << below) | code_bits(coder, value, below);
   }
 
  private:

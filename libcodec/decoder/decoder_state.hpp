@@ -35,7 +35,8 @@ class Decoder::State {
   Metadata metadata;
   Damage damage;
   std::vector<IndexEntry> index;
-  bool measures_bits = false;
+  /// Decodes a frame and fills frame_bits; null while nobody asks for bits.
+  Status (GopDecoder::*measured_take)(Bytes, std::array<double, 3>&) = nullptr;
 
  private:
   /// What the next structure of the stream yields; nothing where it is of no interest outside.

@@ -142,6 +142,11 @@ class SymbolMixture {
     return cumulative_[symbol];
   }
 
+  /// The interval of a symbol under the mixture of two models, without the rest of it.
+  static Interval interval_of(const AdaptiveSymbol& a, const AdaptiveSymbol& b, std::uint32_t symbol) {
+    return {symbol, boundary(a, b, symbol), boundary(a, b, symbol + 1)};
+  }
+
   /// The symbol whose interval holds `target`, which is below 1 << 15.
   Interval find(std::uint32_t target) const {
 #if defined(__SSE2__)
@@ -159,6 +164,12 @@ class SymbolMixture {
   }
 
  private:
+  static std::uint32_t boundary(const AdaptiveSymbol& a, const AdaptiveSymbol& b, std::uint32_t symbol) {
+    if (symbol == AdaptiveSymbol::kMaxSymbols) return 1u << kProbabilityBits;
+    const auto sum = static_cast<std::uint32_t>(a.cumulative_[symbol] + b.cumulative_[symbol] + 1);
+    return (sum >> 1) + kOffsets[symbol];
+  }
+
   /// 4 i: the smallest frequency of each symbol, summed.
   alignas(16) static constexpr std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> kOffsets = {
       0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60};

@@ -1,7 +1,6 @@
 #pragma once
 #include "entropy/adaptive_models.hpp"
 
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -22,14 +21,14 @@ class RangeEncoder {
 
   /// Codes one symbol of an adaptive alphabet and adapts the model.
   std::uint32_t code(AdaptiveSymbol& model, std::uint32_t symbol) {
-    encode(SymbolMixture(model, model), symbol);
+    encode(SymbolMixture::interval_of(model, model, symbol));
     model.adapt(symbol);
     return symbol;
   }
 
   /// Codes one symbol with the mean of two different models and adapts both.
   std::uint32_t code(AdaptiveSymbol& a, AdaptiveSymbol& b, std::uint32_t symbol) {
-    encode(SymbolMixture(a, b), symbol);
+    encode(SymbolMixture::interval_of(a, b, symbol));
     a.adapt(symbol);
     b.adapt(symbol);
     return symbol;
@@ -54,19 +53,23 @@ class RangeEncoder {
     return value;
   }
 
-  /// The symbols that follow belong to this coordinate: of interest to who counts bits.
-  void begin_coordinate(std::size_t /*axis*/) {}
-
   /// Ends the stream and returns its bytes; the encoder is then empty, ready for another stream.
   std::vector<std::uint8_t> finish();
 
  private:
-  void encode(const SymbolMixture& mixture, std::uint32_t symbol) {
-    const std::uint32_t low = mixture.cumulative(symbol);
-    encode(low, mixture.cumulative(symbol + 1) - low);
+  void encode(const SymbolMixture::Interval& interval) { encode(interval.low, interval.high - interval.low); }
+  void encode(std::uint32_t cumulative, std::uint32_t frequency) {
+    const std::uint32_t unit = range_ >> kProbabilityBits;
+    low_ += static_cast<std::uint64_t>(unit) * cumulative;
+    range_ = unit * frequency;
+    const int shift =
+        std::countl_zero(range_);  // at most 15: a frequency is at least 1, a unit at least 2^16
+    range_ <<= shift;
+    low_ <<= shift;
+    pending_ += shift;
+    if (pending_ >= 8) put_bytes();
   }
-  void encode(std::uint32_t cumulative, std::uint32_t frequency);
-  void put_byte();
+  void put_bytes();
 
   std::uint64_t low_ = 0;  ///< 32 bits below the point, `pending_` bits (and a carry) above it
   std::uint32_t range_ = 0xFFFFFFFFu;
@@ -122,8 +125,6 @@ class RangeDecoder {
     return value;
   }
 
-  void begin_coordinate(std::size_t /*axis*/) {}
-
   /// Bits used so far, with the fraction that the range tells.
   double used_bits() const {
     return 8.0 * static_cast<double>(next_) - available_ + 32 - std::log2(static_cast<double>(range_));
@@ -171,33 +172,6 @@ class RangeDecoder {
   std::uint32_t range_ = 0xFFFFFFFFu;
   bool impossible_ = false;  ///< the code value lay beyond every interval: no encoder writes that
   bool overrun_ = false;
-};
-
-/// A RangeDecoder that keeps account of the bits each coordinate takes.
-class MeteredRangeDecoder : public RangeDecoder {
- public:
-  using RangeDecoder::RangeDecoder;
-
-  void begin_coordinate(std::size_t axis) {
-    settle();
-    axis_ = axis;
-  }
-  /// [axis]: bits since the start.
-  std::array<double, 3> bits() {
-    settle();
-    return bits_;
-  }
-
- private:
-  void settle() {
-    const double now = used_bits();
-    bits_[axis_] += now - settled_;
-    settled_ = now;
-  }
-
-  std::array<double, 3> bits_{};
-  std::size_t axis_ = 0;
-  double settled_ = 0;
 };
 
 }  // namespace tvg

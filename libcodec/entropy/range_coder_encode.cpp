@@ -2,27 +2,19 @@
 
 namespace tvg {
 
-void RangeEncoder::encode(std::uint32_t cumulative, std::uint32_t frequency) {
-  const std::uint32_t unit = range_ >> kProbabilityBits;
-  low_ += static_cast<std::uint64_t>(unit) * cumulative;
-  range_ = unit * frequency;
-  const int shift = std::countl_zero(range_);  // at most 15: a frequency is at least 1, a unit at least 2^16
-  range_ <<= shift;
-  low_ <<= shift;
-  pending_ += shift;
-  while (pending_ >= 8) put_byte();
-}
-
-void RangeEncoder::put_byte() {
-  pending_ -= 8;
-  const int position = 32 + pending_;
-  if ((low_ >> (position + 8)) != 0) {  // a carry runs into bytes already written
-    std::size_t i = bytes_.size();
-    while (++bytes_[--i] == 0) {
+/// Puts out what is settled but for a carry.
+void RangeEncoder::put_bytes() {
+  while (pending_ >= 8) {
+    pending_ -= 8;
+    const int position = 32 + pending_;
+    if ((low_ >> (position + 8)) != 0) {  // a carry runs into bytes already written
+      std::size_t i = bytes_.size();
+      while (++bytes_[--i] == 0) {
+      }
     }
+    bytes_.push_back(static_cast<std::uint8_t>(low_ >> position));
+    low_ &= (std::uint64_t{1} << position) - 1;
   }
-  bytes_.push_back(static_cast<std::uint8_t>(low_ >> position));
-  low_ &= (std::uint64_t{1} << position) - 1;
 }
 
 std::vector<std::uint8_t> RangeEncoder::finish() {
@@ -31,11 +23,11 @@ std::vector<std::uint8_t> RangeEncoder::finish() {
   low_ = (low_ + kHalf - 1) & ~(kHalf - 1);
   low_ <<= 1;
   ++pending_;
-  while (pending_ >= 8) put_byte();
+  if (pending_ >= 8) put_bytes();
   if (pending_ > 0) {  // fill the last byte with zero bits
     low_ <<= 8 - pending_;
     pending_ = 8;
-    put_byte();
+    put_bytes();
   }
   std::vector<std::uint8_t> bytes = std::move(bytes_);
   *this = RangeEncoder();

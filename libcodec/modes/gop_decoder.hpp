@@ -1,48 +1,44 @@
 #pragma once
-#include "base/checksum.hpp"
-#include "connectivity/mesh_coder.hpp"
-#include "container/gop_header.hpp"
-#include "planes/frame_coder.hpp"
+#include "modes/elp_decode.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <vector>
+#include <variant>
 
 #include <tvg/decoder.hpp>
 
 namespace tvg {
 
-/// Decodes one GOP, packet by packet (format-spec §4.5, §7). Allocates in begin() and not after.
+/// Decodes one GOP in whatever mode it is, packet by packet (format-spec §4.5). Allocates in begin() and not
+/// after.
 class GopDecoder {
  public:
   /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
-  Status begin(const GopHeader& header, const CodedMesh& mesh);
+  Status begin(const GopHeader& header, const CodedMesh& mesh) { return mode().begin(header, mesh); }
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.
-  Status decode_frame(Bytes packet);
-  /// The same, and `bits` becomes what the packet's residuals of x, y and z take.
-  Status decode_frame(Bytes packet, std::array<double, 3>& bits);
-
+  Status take(Bytes packet) { return mode().take(packet); }
+  /// The same, and `bits` becomes what the packet's residuals of x, y and z take. Who calls it is linked with
+  /// the coder of planes once more.
+  Status take_measured(Bytes packet, std::array<double, 3>& bits) {
+    return mode().take_measured(packet, bits);
+  }
   /// Compares the digest of all frames decoded with the one the encoder stored.
   Status check_digest(Bytes packet) const;
 
-  const GopInfo& info() const { return info_; }
-  void copy_positions(void* positions, std::size_t stride) const;
-  void copy_lattice(std::span<std::int32_t> indices) const;
-  void copy_flags(std::span<std::uint8_t> flags) const;
+  const GopInfo& info() const { return mode().info(); }
+  void copy_positions(void* positions, std::size_t stride) const { mode().copy_positions(positions, stride); }
+  void copy_lattice(std::span<std::int32_t> indices) const { mode().copy_lattice(indices); }
+  void copy_flags(std::span<std::uint8_t> flags) const { mode().copy_flags(flags); }
 
  private:
-  template <class Coder>
-  Status decode_residuals(Coder& coder);
-  bool flagged(std::size_t v) const { return flags_.empty() || flags_[v] != 0; }
+  // The one place that knows which mode the GOP is in.
+  ElpDecoder& mode() { return *std::get_if<ElpDecoder>(&mode_); }
+  const ElpDecoder& mode() const { return *std::get_if<ElpDecoder>(&mode_); }
 
-  const CodedMesh* mesh_ = nullptr;
-  GopInfo info_;
-  Lattice lattice_;
-  std::vector<std::uint8_t> flags_;  ///< [traversal index]; empty when the lattice is not hybrid
-  std::optional<FrameCoder> coder_;
-  Hasher digest_;
+  std::variant<ElpDecoder> mode_;
 };
 
 }  // namespace tvg

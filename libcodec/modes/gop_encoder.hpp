@@ -1,23 +1,13 @@
 #pragma once
 #include "connectivity/mesh_coder.hpp"
-#include "quantization/lattice.hpp"
+#include "modes/gop_input.hpp"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <tvg/types.hpp>
 
 namespace tvg {
-
-/// One GOP to be encoded.
-struct GopInput {
-  std::span<const FramePositions> frames;  ///< [frame][vertex][xyz], in the order of the input mesh
-  std::uint64_t first_frame = 0;           ///< number of its first frame in the sequence it comes from
-  Lattice lattice;
-  std::vector<std::uint8_t> flags;  ///< [vertex]: 1 important; not looked at unless the lattice is hybrid
-  Predictor predictor = Predictor::kElp;
-};
 
 /// Encodes one GOP to its whole chunk (format-spec §4.5): lattice → prediction → residuals → packets. Fails
 /// with kLimitExceeded when a packet is larger than `limits` allow.

@@ -1,5 +1,6 @@
 #pragma once
 #include "entropy/adaptive_models.hpp"
+#include "entropy/code_bits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@
 // the other by what the vertex did in the frame before.
 namespace tvg {
 
-/// Where a residual's models stand: see prediction/residual_context.hpp for how they are chosen.
+/// Where a residual's models stand: the contexts of the planes that are coded choose it.
 struct ModelChoice {
   std::size_t set;         ///< below the number of sets
   std::uint32_t activity;  ///< weighted sum of the sizes of residuals already coded around
@@ -25,6 +26,9 @@ class ResidualModels {
  public:
   /// `set_count` independent sets of models, all in their initial state.
   explicit ResidualModels(std::size_t set_count) : cells_(set_count * kLevels) {}
+
+  /// What so many sets take of memory.
+  static constexpr std::size_t bytes(std::size_t set_count) { return set_count * kLevels * sizeof(Cell); }
 
   /// Codes one residual and returns it; a decoder ignores the argument. What a damaged stream yields is
   /// within +-2^27.
@@ -98,12 +102,7 @@ class ResidualModels {
            coder.code(cell.escape_length[static_cast<std::size_t>(length)], length < wanted_length)) {
       ++length;
     }
-    std::uint32_t value = 1;
-    for (int left = length; left > 0;) {
-      const int now = std::min(left, 15);
-      left -= now;
-      value = (value << now) | coder.code_raw((beyond >> left) & ((1u << now) - 1), now);
-    }
+    const std::uint32_t value = (1u << length) | code_bits(coder, beyond, length);
     const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(value + kLargest, kBound));
     return negative ? -size : size;
   }

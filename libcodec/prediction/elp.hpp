@@ -8,17 +8,19 @@ namespace tvg {
 struct ElpPredictor {
   static constexpr bool kUsesTime = true;
 
-  template <class T>
-  static Prediction<T> predict(const Neighbourhood<T>& v) {
-    const T motion_n = v.n - v.n_previous;
-    const T motion_p = v.p - v.p_previous;
-    const T motion_o = v.o - v.o_previous;
-    return {v.previous + motion_n + motion_p - motion_o, motion_n + motion_p - 2 * motion_o};
+  template <class Now, class Before>
+  static Prediction<IndexIn<Now>> predict(const Scheduled& v, const Now& now, const Before& before) {
+    const auto motion_n = now(v.gate.n) - before(v.gate.n);
+    const auto motion_p = now(v.gate.p) - before(v.gate.p);
+    const auto motion_o = now(v.gate.o) - before(v.gate.o);
+    const auto along_edge = motion_n + motion_p;
+    return {before(v.vertex) + along_edge - motion_o, along_edge - motion_o - motion_o};
   }
 
-  template <class T>
-  static T predict_seed(const Neighbourhood<T>& v, bool has_n) {
-    return has_n ? v.previous + (v.n - v.n_previous) : v.previous;
+  template <class Now, class Before, class T>
+  static T predict_seed(const Scheduled& v, const Now& now, const Before& before, T /*middle*/) {
+    const T own = before(v.vertex);
+    return v.gate.n == kNoVertex ? own : own + now(v.gate.n) - before(v.gate.n);
   }
 };
 

@@ -1,21 +1,18 @@
 #pragma once
+#include "prediction/schedule.hpp"
+
 #include <cstdint>
+#include <type_traits>
 
 // The one interface of all predictors (format-spec §7.2): a predictor is a type with
-//   kUsesTime              whether it needs a frame before,
-//   predict(v)             the Prediction for a vertex with a whole gate,
-//   predict_seed(v, has_n) the predicted index for one without; `has_n` says whether the gate has an n.
-// T is std::int32_t, or a vector of them with the same operators.
+//   kUsesTime                            whether it needs reference planes,
+//   predict(v, now, before)              the Prediction for a scheduled vertex with a whole gate,
+//   predict_seed(v, now, before, middle) the predicted index for one without; `middle` stands in for planes
+//                                        where no vertex has had its turn.
+// `now(w)` is vertex w's index in the planes that are coded, `before(w)` that in the reference planes, both
+// on the lattice of the vertex that is predicted (Algorithm 2 has been applied): an integer or a vector of
+// them.
 namespace tvg {
-
-/// A vertex's neighbourhood in one coordinate, every index on the vertex's own lattice (Algorithm 2 has been
-/// applied).
-template <class T>
-struct Neighbourhood {
-  T previous;                            ///< the vertex itself in the frame before
-  T n, p, o;                             ///< ends of the gate edge and the vertex across it, in this frame
-  T n_previous, p_previous, o_previous;  ///< the same in the frame before
-};
 
 /// A predicted index, and what is known of its error beforehand.
 template <class T>
@@ -25,5 +22,9 @@ struct Prediction {
   /// other way.
   T lean;
 };
+
+/// What a view of planes gives for a vertex.
+template <class View>
+using IndexIn = std::invoke_result_t<const View&, std::uint32_t>;
 
 }  // namespace tvg

@@ -3,20 +3,19 @@
 
 namespace tvg {
 
-/// The parallelogram of the gate within the frame: n + p - o. Every first frame of a GOP uses it too.
+/// The parallelogram of the gate within the planes: n + p - o. Every first frame of a GOP uses it.
 struct SpacePredictor {
   static constexpr bool kUsesTime = false;
 
-  template <class T>
-  static Prediction<T> predict(const Neighbourhood<T>& v) {
-    return {v.n + v.p - v.o, T{}};
+  template <class Now, class Before>
+  static Prediction<IndexIn<Now>> predict(const Scheduled& v, const Now& now, const Before& /*before*/) {
+    const auto value = now(v.gate.n) + now(v.gate.p) - now(v.gate.o);
+    return {value, {}};
   }
 
-  /// Without a gate edge, `v.n` is the vertex coded just before, or the middle of the lattice for the first
-  /// one.
-  template <class T>
-  static T predict_seed(const Neighbourhood<T>& v, bool /*has_n*/) {
-    return v.n;
+  template <class Now, class Before, class T>
+  static T predict_seed(const Scheduled& v, const Now& now, const Before& /*before*/, T middle) {
+    return v.nearest == kNoVertex ? middle : now(v.nearest);
   }
 };
 

@@ -7,14 +7,15 @@ namespace tvg {
 struct TimePredictor {
   static constexpr bool kUsesTime = true;
 
-  template <class T>
-  static Prediction<T> predict(const Neighbourhood<T>& v) {
-    return {v.previous, (v.n_previous - v.n) + (v.p_previous - v.p)};
+  template <class Now, class Before>
+  static Prediction<IndexIn<Now>> predict(const Scheduled& v, const Now& now, const Before& before) {
+    const auto& [n, p, o] = v.gate;
+    return {before(v.vertex), (before(n) - now(n)) + (before(p) - now(p))};
   }
 
-  template <class T>
-  static T predict_seed(const Neighbourhood<T>& v, bool /*has_n*/) {
-    return v.previous;
+  template <class Now, class Before, class T>
+  static T predict_seed(const Scheduled& v, const Now& /*now*/, const Before& before, T /*middle*/) {
+    return before(v.vertex);
   }
 };
 

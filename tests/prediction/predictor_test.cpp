@@ -1,5 +1,6 @@
-#include "planes/frame_coder.hpp"
+#include "planes/plane_coder.hpp"
 #include "prediction/elp.hpp"
+#include "prediction/schedule.hpp"
 #include "prediction/space.hpp"
 #include "prediction/time.hpp"
 
@@ -11,33 +12,73 @@
 namespace tvg {
 namespace {
 
-using Around = Neighbourhood<std::int32_t>;
+/// What predictors see of a plane.
+auto view(const std::array<std::int32_t, 4>& plane) {
+  return [&plane](std::uint32_t w) { return plane.at(w); };
+}
 
-// v was at 50; n, p, o went from 40, 60, 45 to 43, 58, 49.
-constexpr Around kExample{50, 43, 58, 49, 40, 60, 45};
+/// One plane at two times: n, p, o and v.
+struct Around {
+  std::array<std::int32_t, 4> then, now;
+
+  template <class P>
+  std::int32_t predict() const {
+    return P::predict(kVertex, view(now), view(then)).value;
+  }
+  template <class P>
+  std::int32_t predict_seed(std::uint32_t n, std::uint32_t nearest) const {
+    const Scheduled seed{3, {n, kNoVertex, kNoVertex}, nearest};
+    return P::predict_seed(seed, view(now), view(then), 1024);
+  }
+
+ private:
+  static constexpr Scheduled kVertex{3, {0, 1, 2}, 0};
+};
+
+// n, p, o went from 40, 60, 45 to 43, 58, 49; v was at 50.
+constexpr Around kExample{{40, 60, 45, 50}, {43, 58, 49, 0}};
 
 TEST(Predictors, ElpIsEquation9WorkedByHand) {
   // 50 + (43 - 40) + (58 - 60) - (49 - 45) = 47.
-  EXPECT_EQ(ElpPredictor::predict(kExample).value, 47);
+  EXPECT_EQ(kExample.predict<ElpPredictor>(), 47);
 }
 
 TEST(Predictors, ElpFollowsATranslationExactly) {
-  EXPECT_EQ(ElpPredictor::predict(Around{50, 47, 67, 52, 40, 60, 45}).value, 57);
+  const Around moved{{40, 60, 45, 50}, {47, 67, 52, 0}};
+  EXPECT_EQ(moved.predict<ElpPredictor>(), 57);
 }
 
 TEST(Predictors, SpaceIsTheParallelogramOfTheFrame) {
-  EXPECT_EQ(SpacePredictor::predict(kExample).value, 43 + 58 - 49);
+  EXPECT_EQ(kExample.predict<SpacePredictor>(), 43 + 58 - 49);
 }
 
 TEST(Predictors, TimeIsTheVertexItselfInTheFrameBefore) {
-  EXPECT_EQ(TimePredictor::predict(kExample).value, 50);
+  EXPECT_EQ(kExample.predict<TimePredictor>(), 50);
 }
 
 TEST(Predictors, SeedsFollowTheOneNeighbourTheyHave) {
-  EXPECT_EQ(ElpPredictor::predict_seed(kExample, true), 50 + 3);
-  EXPECT_EQ(ElpPredictor::predict_seed(kExample, false), 50);
-  EXPECT_EQ(TimePredictor::predict_seed(kExample, true), 50);
-  EXPECT_EQ(SpacePredictor::predict_seed(kExample, true), 43);
+  EXPECT_EQ(kExample.predict_seed<ElpPredictor>(0, 0), 50 + 3);
+  EXPECT_EQ(kExample.predict_seed<ElpPredictor>(kNoVertex, 2), 50);
+  EXPECT_EQ(kExample.predict_seed<TimePredictor>(0, 0), 50);
+  EXPECT_EQ(kExample.predict_seed<SpacePredictor>(0, 0), 43);
+}
+
+TEST(Predictors, SeedsWithoutANeighbourFollowTheVertexBeforeInSpace) {
+  EXPECT_EQ(kExample.predict_seed<SpacePredictor>(kNoVertex, 2), 49);
+  EXPECT_EQ(kExample.predict_seed<SpacePredictor>(kNoVertex, kNoVertex), 1024);
+}
+
+TEST(Schedule, FollowsTheTraversalAndItsGates) {
+  const std::vector<Gate> gates = {{}, {0, kNoVertex, kNoVertex}, {}, {0, 1, 2}};
+  const Schedule schedule{gates};
+  ASSERT_EQ(schedule.size(), 4u);
+  const std::vector<std::uint32_t> nearest = {kNoVertex, 0, 1, 0};
+  for (std::uint32_t turn = 0; turn < 4; ++turn) {
+    EXPECT_EQ(schedule[turn].vertex, turn);
+    EXPECT_EQ(schedule[turn].gate, gates[turn]);
+    EXPECT_EQ(schedule[turn].nearest, nearest[turn]);
+    EXPECT_EQ(schedule[turn].whole(), turn == 3);
+  }
 }
 
 /// Takes the place of an encoder and notes the residuals it is given, as long as none needs the escape.
@@ -45,9 +86,8 @@ class SpyCoder {
  public:
   static constexpr bool kDecoding = false;
 
-  void begin_coordinate(std::size_t /*axis*/) { notes_.push_back({}); }
   std::uint32_t code(AdaptiveSymbol& /*a*/, AdaptiveSymbol& /*b*/, std::uint32_t symbol) {
-    notes_.back() = {symbol == 15, static_cast<std::int32_t>(symbol) - 7};
+    notes_.push_back({symbol == 15, static_cast<std::int32_t>(symbol) - 7});
     return symbol;
   }
   bool code(AdaptiveBit& /*model*/, bool bit) { return bit; }
@@ -85,17 +125,17 @@ struct Example {
 std::array<std::array<std::int32_t, 3>, 2> residuals_of(const Example& example, Predictor predictor) {
   const std::vector<Gate> gates = {{}, {0, kNoVertex, kNoVertex}, {0, 1, kNoVertex}, {0, 1, 2}};
   const Lattice lattice{{}, 1, 13, 11};
-  FrameCoder frames(gates, example.flags, lattice, predictor);
+  PlaneCoder<3> frames(Schedule(gates), example.flags, lattice);
   std::array<std::array<std::int32_t, 3>, 2> residuals{};
   for (std::size_t f = 0; f < 2; ++f) {
-    frames.next_frame();
+    frames.next();
     for (std::size_t v = 0; v < 4; ++v) {
       const std::int32_t own = (f == 0 ? example.first : example.second)[v];
       const std::int32_t index = example.flags[v] != 0 ? own : pad_to_fine(own, 2);
       frames.indices()[v] = {index, index, index, 0};
     }
     SpyCoder spy;
-    EXPECT_TRUE(frames.code(spy));
+    EXPECT_TRUE(frames.code(spy, f == 0 ? Predictor::kSpace : predictor));
     residuals[f] = spy.last_residuals();
   }
   return residuals;

@@ -1,31 +1,78 @@
-#include "planes/frame_coder.hpp"
+#include "planes/plane_coder.hpp"
 
-#include "frame_builders.hpp"
+#include "plane_builders.hpp"
 
 #include <gtest/gtest.h>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace tvg::test {
 namespace {
 
 /// Decodes the packets and compares every index.
+template <std::size_t kPlanes = 3>
 void expect_frames_back(const std::vector<Gate>& gates, const std::vector<std::uint8_t>& flags,
                         const Lattice& lattice, Predictor predictor, const std::vector<Frame>& frames) {
   const std::vector<std::vector<std::uint8_t>> packets =
-      encode_frames(gates, flags, lattice, predictor, frames);
-  FrameCoder back(gates, flags, lattice, predictor);
+      encode_frames<kPlanes>(gates, flags, lattice, predictor, frames);
+  PlaneCoder<kPlanes> back(Schedule(gates), flags, lattice);
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    back.next_frame();
+    back.next();
     RangeDecoder decoder(packets[f]);
-    ASSERT_TRUE(back.code(decoder)) << "frame " << f;
+    ASSERT_TRUE(back.code(decoder, predictor_at(f, predictor))) << "frame " << f;
     ASSERT_TRUE(decoder.finished()) << "frame " << f;
     const std::span<const Quad> indices = back.indices();
     ASSERT_TRUE(std::equal(indices.begin(), indices.end(), frames[f].begin())) << "frame " << f;
   }
 }
 
-TEST(FrameCoder, FramesComeBackAtEveryNumberOfBitsWithEveryPredictor) {
+template <std::size_t kPlanes>
+void expect_group_back() {
+  std::mt19937 random(7);
+  for (const int coarse : {11, 8, 2}) {
+    const Lattice lattice{{}, 1, 11, coarse};
+    for (const Predictor predictor : kPredictors) {
+      const std::vector<Gate> gates = random_gates(150, random);
+      const std::vector<std::uint8_t> flags =
+          lattice.hybrid() ? random_flags(gates.size(), 0.4, random) : std::vector<std::uint8_t>();
+      const std::vector<Frame> frames = random_frames<kPlanes>(gates.size(), 4, lattice, flags, 20, random);
+      ASSERT_NO_FATAL_FAILURE(expect_frames_back<kPlanes>(gates, flags, lattice, predictor, frames))
+          << kPlanes << " planes, " << coarse << " coarse bits";
+    }
+  }
+}
+
+TEST(PlaneCoder, GroupsOfOneToFourPlanesComeBack) {
+  expect_group_back<1>();
+  expect_group_back<2>();
+  expect_group_back<3>();
+  expect_group_back<4>();
+}
+
+TEST(PlaneCoder, PredictorsMayChangeFromFrameToFrame) {
+  std::mt19937 random(8);
+  const Lattice lattice{{}, 1, 12, 9};
+  const std::vector<Gate> gates = random_gates(200, random);
+  const std::vector<std::uint8_t> flags = random_flags(gates.size(), 0.3, random);
+  const std::vector<Frame> frames = random_frames(gates.size(), 12, lattice, flags, 9, random);
+  PlaneCoder<3> writer(Schedule(gates), flags, lattice), reader(Schedule(gates), flags, lattice);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Predictor predictor = predictor_at(f, kPredictors[(f * f + f / 3) % 3]);
+    writer.next();
+    std::copy(frames[f].begin(), frames[f].end(), writer.indices().begin());
+    RangeEncoder encoder;
+    writer.code(encoder, predictor);
+    const std::vector<std::uint8_t> packet = encoder.finish();
+    RangeDecoder decoder(packet);
+    reader.next();
+    ASSERT_TRUE(reader.code(decoder, predictor)) << "frame " << f;
+    ASSERT_TRUE(decoder.finished());
+    ASSERT_TRUE(std::equal(frames[f].begin(), frames[f].end(), std::as_const(reader).indices().begin()));
+  }
+}
+
+TEST(PlaneCoder, FramesComeBackAtEveryNumberOfBitsWithEveryPredictor) {
   std::mt19937 random(1);
   for (int bits = kMinBits; bits <= kMaxBits; ++bits) {
     const Lattice lattice{{}, 1, bits, bits};
@@ -40,7 +87,7 @@ TEST(FrameCoder, FramesComeBackAtEveryNumberOfBitsWithEveryPredictor) {
   }
 }
 
-TEST(FrameCoder, HybridFramesComeBackForEveryPairOfBits) {
+TEST(PlaneCoder, HybridFramesComeBackForEveryPairOfBits) {
   std::mt19937 random(2);
   for (int fine = 2; fine <= kMaxBits; ++fine) {
     for (int coarse = 1; coarse < fine; coarse += 1 + fine / 8) {
@@ -58,7 +105,7 @@ TEST(FrameCoder, HybridFramesComeBackForEveryPairOfBits) {
   }
 }
 
-TEST(FrameCoder, JumpsAcrossTheWholeLatticeComeBackAt24Bits) {
+TEST(PlaneCoder, JumpsAcrossTheWholeLatticeComeBackAt24Bits) {
   std::mt19937 random(3);
   const std::int32_t last = (1 << 24) - 1;
   const std::vector<Gate> gates = random_gates(200, random);
@@ -81,7 +128,7 @@ TEST(FrameCoder, JumpsAcrossTheWholeLatticeComeBackAt24Bits) {
   }
 }
 
-TEST(FrameCoder, HybridLatticeWithAllFlagsSetGivesTheBytesOfTheUniformOne) {
+TEST(PlaneCoder, HybridLatticeWithAllFlagsSetGivesTheBytesOfTheUniformOne) {
   std::mt19937 random(4);
   for (const int bits : {2, 5, 11, 17, 24}) {
     const Lattice uniform{{}, 1, bits, bits};
@@ -101,7 +148,7 @@ TEST(FrameCoder, HybridLatticeWithAllFlagsSetGivesTheBytesOfTheUniformOne) {
   }
 }
 
-TEST(FrameCoder, ElpCodesATranslationInNextToNothing) {
+TEST(PlaneCoder, ElpCodesATranslationInNextToNothing) {
   std::mt19937 random(5);
   const Lattice lattice{{}, 1, 12, 12};
   std::vector<Gate> gates(2000);
@@ -116,7 +163,7 @@ TEST(FrameCoder, ElpCodesATranslationInNextToNothing) {
   EXPECT_LT(packets[3].size(), 100u);
 }
 
-TEST(FrameCoder, DamagedPacketsLeaveEveryIndexOnItsLattice) {
+TEST(PlaneCoder, DamagedPacketsLeaveEveryIndexOnItsLattice) {
   std::mt19937 random(6);
   for (int round = 0; round < 150; ++round) {
     const int fine = 1 + static_cast<int>(random() % 24);
@@ -124,13 +171,13 @@ TEST(FrameCoder, DamagedPacketsLeaveEveryIndexOnItsLattice) {
     const std::vector<Gate> gates = random_gates(80, random);
     const std::vector<std::uint8_t> flags =
         lattice.hybrid() ? random_flags(gates.size(), 0.4, random) : std::vector<std::uint8_t>();
-    FrameCoder coder(gates, flags, lattice, kPredictors[random() % 3]);
+    PlaneCoder<3> coder(Schedule(gates), flags, lattice);
     for (int frame = 0; frame < 4; ++frame) {
       std::vector<std::uint8_t> bytes(random() % 400);
       for (std::uint8_t& byte : bytes) byte = round % 4 == 0 ? 0xFF : static_cast<std::uint8_t>(random());
       RangeDecoder decoder(bytes);
-      coder.next_frame();
-      coder.code(decoder);
+      coder.next();
+      coder.code(decoder, frame == 0 ? Predictor::kSpace : kPredictors[random() % 3]);
       for (const Quad& index : std::as_const(coder).indices()) {
         for (std::size_t axis = 0; axis < 3; ++axis) ASSERT_EQ(index[axis] >> fine, 0);
         ASSERT_EQ(index[3], 0);
@@ -139,12 +186,12 @@ TEST(FrameCoder, DamagedPacketsLeaveEveryIndexOnItsLattice) {
   }
 }
 
-TEST(FrameCoder, WorkOnAnEmptyPacketEndsSoon) {
+TEST(PlaneCoder, WorkOnAnEmptyPacketEndsSoon) {
   const std::vector<Gate> gates(1000000);
-  FrameCoder coder(gates, {}, {{}, 1, 11, 11}, Predictor::kElp);
-  coder.next_frame();
+  PlaneCoder<3> coder(Schedule(gates), {}, {{}, 1, 11, 11});
+  coder.next();
   RangeDecoder decoder({});
-  EXPECT_FALSE(coder.code(decoder));
+  EXPECT_FALSE(coder.code(decoder, Predictor::kSpace));
   EXPECT_TRUE(decoder.overrun());
 }
 

@@ -1,0 +1,54 @@
+#pragma once
+#include "base/checksum.hpp"
+#include "connectivity/mesh_coder.hpp"
+#include "container/gop_header.hpp"
+#include "modes/elp.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <tvg/decoder.hpp>
+
+namespace tvg {
+
+/// Decodes a GOP in mode elp, packet by packet (format-spec §7). Allocates in begin() and not after.
+class ElpDecoder {
+ public:
+  /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
+  Status begin(const GopHeader& header, const CodedMesh& mesh);
+
+  /// Decodes the next frame's packet; after an error the rest of the GOP is lost.
+  Status take(Bytes packet);
+  /// The same, and `bits` becomes what the residuals of x, y and z take of the packet.
+  Status take_measured(Bytes packet, std::array<double, 3>& bits);
+
+  /// Of all frames taken.
+  std::uint64_t digest() const { return digest_.value(); }
+
+  const GopInfo& info() const { return info_; }
+  /// The frame taken last: vertex v's x, y, z as float32 at `positions` + v * `stride`.
+  void copy_positions(void* positions, std::size_t stride) const;
+  /// [vertex][xyz], each on its vertex's own lattice.
+  void copy_lattice(std::span<std::int32_t> indices) const;
+  /// [vertex], 0 or 1.
+  void copy_flags(std::span<std::uint8_t> flags) const;
+
+ private:
+  template <class Coder>
+  Status decode(Coder& coder);
+  bool flagged(std::size_t v) const { return flags_.empty() || flags_[v] != 0; }
+
+  const CodedMesh* mesh_ = nullptr;
+  GopInfo info_;
+  Lattice lattice_;
+  std::vector<std::uint8_t> flags_;  ///< [traversal index]; empty when the lattice is not hybrid
+  std::optional<PositionCoder> positions_;
+  std::uint32_t frames_taken_ = 0;
+  Hasher digest_;
+};
+
+}  // namespace tvg

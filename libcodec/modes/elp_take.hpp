@@ -1,0 +1,21 @@
+#pragma once
+#include "base/stream_error.hpp"
+#include "modes/elp_decode.hpp"
+
+#include <utility>
+
+// How a frame's packet is decoded, for the two files that do it: with an account of its bits and without.
+namespace tvg {
+
+// format-spec §7.5
+template <class Coder>
+Status ElpDecoder::decode(Coder& coder) {
+  positions_->next();
+  const bool inside = positions_->code(coder, predictor_of(frames_taken_++, info_.predictor));
+  if (!coder.finished()) return malformed("§6.1", "the frame's residuals do not fill its packet exactly");
+  if (!inside) return malformed("§7.5", "a decoded index lies outside its lattice");
+  digest_.update(digested(std::as_const(*positions_).indices()));
+  return {};
+}
+
+}  // namespace tvg
