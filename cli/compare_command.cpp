@@ -2,6 +2,7 @@
 #include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "tool/mesh_format.hpp"
+#include "tool/option_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
@@ -76,6 +77,7 @@ Result<bool> read(FrameSource& source, FramePositions& frame) {
 }
 
 ComparisonReport compare(const CompareArguments& arguments) {
+  if (!arguments.fps.empty()) static_cast<void>(parse_rate(arguments.fps));
   const auto decoded = open_side(arguments.decoded, arguments, arguments.fps);
   const auto original =
       open_side(arguments.original, arguments, arguments.fps.empty() ? rate_of(*decoded) : arguments.fps);

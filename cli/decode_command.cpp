@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "decoder/exporters/frame_sink.hpp"
+#include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/stream_reader.hpp"
@@ -198,7 +199,12 @@ void add_decode_command(CLI::App& tool) {
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
-  command.callback([arguments] { DecodeJob(*arguments).run(); });
+  command.callback([arguments] {
+    InputFiles inputs;
+    inputs.add(arguments->input);
+    for (const std::string& output : sink_outputs(arguments->output, {})) inputs.check_output(output);
+    DecodeJob(*arguments).run();
+  });
 }
 
 }  // namespace tvg::cli

@@ -23,6 +23,7 @@ namespace tvg::cli {
 namespace {
 
 constexpr int kMostBits = 24;
+constexpr int kMostThreads = 1024;
 constexpr std::uint32_t kLiveGopFrames = 15;  // who joins a live stream waits half a second at most
 constexpr double kUsualFrameRate = 30;
 
@@ -53,6 +54,9 @@ Metadata metadata_of(const EncodeArguments& arguments) {
     }
     metadata[entry.substr(0, equals)] = entry.substr(equals + 1);
   }
+  if (const auto fps = metadata.find("fps"); fps != metadata.end() && !parse_frame_rate(fps->second)) {
+    fail_option("--meta", "fps=" + fps->second, kFrameRateHelp);
+  }
   for (const auto& [key, value] : {std::pair("fps", &arguments.fps), std::pair("name", &arguments.name),
                                    std::pair("units", &arguments.units)}) {
     if (!value->empty()) metadata[key] = *value;
@@ -60,8 +64,17 @@ Metadata metadata_of(const EncodeArguments& arguments) {
   return metadata;
 }
 
+Mode parse_mode(const std::string& text) {
+  if (text == "elp") return Mode::kElp;
+  if (text == "basis") {
+    fail_option("--mode", text, "this mode is not there yet, and no stream has it: write elp");
+  }
+  fail_option("--mode", text, "write elp");
+}
+
 EncodeOptions options_of(const EncodeArguments& arguments) {
   EncodeOptions options;
+  options.mode = parse_mode(arguments.mode);
   if (arguments.step.empty()) {
     const BitPair bits = parse_bits(arguments.bits);
     options.fine_bits = bits.fine;
@@ -129,6 +142,7 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
 
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
+  files_of(arguments, arguments.measure.weights).check_output(arguments.output);
   const OpenedInput opened = open_input(arguments, arguments.live);
   options.first_frame = opened.first_frame;
   check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
@@ -182,9 +196,7 @@ void add_encode_command(CLI::App& tool) {
           "off by more than half a step")
       ->excludes(bits);
   add_measure_options(command, arguments->measure);
-  command.add_option("--mode", arguments->mode, "how frames are coded")
-      ->check(CLI::IsMember({"elp"}))
-      ->capture_default_str();
+  command.add_option("--mode", arguments->mode, "how frames are coded: elp")->capture_default_str();
   command.add_option("--predictor", arguments->predictor, "what vertices are predicted from")
       ->check(CLI::IsMember({"space", "time", "elp"}))
       ->capture_default_str();
@@ -200,8 +212,10 @@ void add_encode_command(CLI::App& tool) {
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");
-  auto* threads = command.add_option("--threads", arguments->threads,
-                                     "GOPs encoded at a time (default: one per processor)");
+  auto* threads =
+      command
+          .add_option("--threads", arguments->threads, "GOPs encoded at a time (default: one per processor)")
+          ->check(CLI::Range(1, kMostThreads));
   auto* live =
       command
           .add_flag("--live", arguments->live,

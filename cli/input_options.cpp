@@ -1,5 +1,6 @@
 #include "cli/input_options.hpp"
 
+#include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/skeleton_file.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
@@ -28,7 +29,16 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
                      "else by time), or JSON as tvg_corpus writes it");
 }
 
+InputFiles files_of(const InputArguments& arguments, const std::string& weights) {
+  InputFiles files;
+  files.add(with_scene_files(arguments.inputs));
+  files.add(arguments.skeleton);
+  files.add(weights);
+  return files;
+}
+
 OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
+  if (!arguments.fps.empty()) static_cast<void>(parse_rate(arguments.fps));
   OpenedInput opened;
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};

@@ -1,5 +1,6 @@
 #pragma once
 #include "encoder/importers/open_source.hpp"
+#include "tool/input_files.hpp"
 
 #include <cstdint>
 #include <string>
@@ -25,6 +26,10 @@ struct InputArguments {
 /// Declares the inputs, --frames, --clip, --mesh and --skeleton; `arguments` must outlive the parsing. --fps
 /// is left to the command: what it means differs. `others`: what the command takes beside these inputs.
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others = "");
+
+/// All files that the options name or imply, `weights` (may be empty) among them, so that no output
+/// overwrites one.
+InputFiles files_of(const InputArguments& arguments, const std::string& weights);
 
 struct OpenedInput : OpenedSource {
   std::uint64_t first_frame = 0;  ///< of --frames

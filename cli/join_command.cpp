@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "tool/atomic_file.hpp"
+#include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/tool_error.hpp"
@@ -48,6 +49,9 @@ void run_join(const JoinArguments& arguments) {
   if (std::count(arguments.inputs.begin(), arguments.inputs.end(), "-") > 1) {
     throw ToolError(ExitStatus::kUsage, "standard input (-) can be joined once only");
   }
+  InputFiles files;
+  files.add(arguments.inputs);
+  files.check_output(arguments.output);
   allow_many_open_files();
   std::vector<JoinInput> inputs;
   for (const std::string& path : arguments.inputs) inputs.push_back(open_input(path));

@@ -3,6 +3,7 @@
 #include "cli/measure_options.hpp"
 #include "cli/measure_report.hpp"
 #include "cli/measured_ply.hpp"
+#include "cli/number_option.hpp"
 #include "cli/watched_source.hpp"
 #include "encoder/importers/skeleton_file.hpp"
 #include "tool/frame_pattern.hpp"
@@ -122,10 +123,13 @@ class MeasureJob {
 #endif
       );
     }
+    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights);
+    inputs.check_output(arguments_.ply);
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty() && !has_suffix(arguments_.picture, ".png")) {
       fail_option("--picture", arguments_.picture, "write cost.png");
     }
+    inputs.check_output(arguments_.picture);
 #endif
   }
 
@@ -212,8 +216,9 @@ void add_measure_command(CLI::App& tool) {
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
   add_measure_options(command, arguments->measure);
-  command.add_option("--frame", arguments->frame,
-                     "the frame that is shown, counted from 0 (default: the middle)");
+  add_count(
+      command, "--frame", [arguments](std::uint64_t frame) { arguments->frame = frame; },
+      "the frame that is shown, counted from 0 (default: the middle)");
   command.add_option("--ply", arguments->ply,
                      "write the frame as a coloured PLY with the properties cost and important, or every "
                      "frame (cost_%04d.ply)");

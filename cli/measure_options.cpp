@@ -1,5 +1,6 @@
 #include "cli/measure_options.hpp"
 
+#include "cli/number_option.hpp"
 #include "encoder/importers/vertex_weights.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
@@ -128,23 +129,20 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
   auto* share = command.add_option("--important", arguments.important,
                                    "share of important vertices where there are two resolutions (default "
                                    "35%)");
-  command.add_option("--important-above", arguments.threshold, "instead: vertices whose cost is above this")
+  const auto into = [](std::optional<double>& place) { return [&place](double value) { place = value; }; };
+  // Negative weights make negative costs, so a threshold may be any number.
+  add_number(command, "--important-above", {}, into(arguments.threshold),
+             "instead: vertices whose cost is above this")
       ->excludes(share);
-  command
-      .add_option("--alpha", arguments.alpha,
-                  fmt::format("of curv: weight of the change of curvature against its mean (default {})",
-                              Importance().alpha))
-      ->check(CLI::Range(0.0, 1.0));
-  command
-      .add_option("--skel-alpha", arguments.skel_alpha,
-                  fmt::format("of skel: value at joints that bend; elsewhere it is 1 minus this (default {})",
-                              Importance().skel_alpha))
-      ->check(CLI::Range(0.0, 1.0));
-  command
-      .add_option("--skel-threshold", arguments.skel_threshold,
-                  "of skel: degrees per frame above which a joint bends (default: a quarter of the strongest "
-                  "joint's, at least 0.1)")
-      ->check(CLI::NonNegativeNumber);
+  add_number(command, "--alpha", {0, 1}, into(arguments.alpha),
+             fmt::format("of curv: weight of the change of curvature against its mean (default {})",
+                         Importance().alpha));
+  add_number(command, "--skel-alpha", {0, 1}, into(arguments.skel_alpha),
+             fmt::format("of skel: value at joints that bend; elsewhere it is 1 minus this (default {})",
+                         Importance().skel_alpha));
+  add_number(command, "--skel-threshold", {0}, into(arguments.skel_threshold),
+             "of skel: degrees per frame above which a joint bends (default: a quarter of the strongest "
+             "joint's, at least 0.1)");
   command
       .add_option(
           "--skel-region", arguments.skel_region,

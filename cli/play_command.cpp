@@ -1,8 +1,11 @@
 #include "cli/commands.hpp"
 #include "cli/look_options.hpp"
+#include "cli/number_option.hpp"
 #include "cli/open_source_files.hpp"
+#include "encoder/importers/scene_file.hpp"
 #include "player/playback/playback_clock.hpp"
 #include "player/window/play_window.hpp"
+#include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 
 #include <CLI/CLI.hpp>
@@ -11,6 +14,8 @@
 namespace tvg::cli {
 
 namespace {
+
+constexpr double kMostSeconds = 1e6;
 
 struct PlayArguments : LookArguments {
   std::string location;
@@ -30,15 +35,17 @@ PlayOptions options_of(const PlayArguments& arguments) {
   static_cast<Look&>(options) = parse_look(arguments);
   options.open_source = source_opener();
   options.location = arguments.location;
-  if (!arguments.fps.empty()) {
-    options.rate = parse_frame_rate(arguments.fps);
-    if (!options.rate) fail_option("--fps", arguments.fps, "write frames per second as 30 or 30000/1001");
-  }
+  if (!arguments.fps.empty()) options.rate = parse_rate(arguments.fps);
   options.speed = arguments.speed;
   options.looping = !arguments.once;
   options.paused = arguments.paused;
   options.start = arguments.start;
   options.memory_bytes = arguments.memory_mb << 20;
+  InputFiles inputs;
+  inputs.add(options.location);
+  inputs.add(with_scene_files(options.reference));
+  inputs.check_output(arguments.screenshot);
+  inputs.check_output(arguments.report);
   options.screenshot = arguments.screenshot;
   options.report = arguments.report;
   if (arguments.seconds > 0) options.seconds = arguments.seconds;
@@ -56,18 +63,23 @@ void add_play_command(CLI::App& tool) {
       "a .tvg, an http or https URL of one, or - for standard input; a file can also be dropped on "
       "the window");
   add_look_options(command, *arguments);
-  command.add_option("--start", arguments->start, "the first frame to show, counted from 0");
+  add_count(
+      command, "--start", [arguments](std::uint64_t frame) { arguments->start = frame; },
+      "the first frame to show, counted from 0");
   command.add_flag("--paused", arguments->paused, "wait at the first frame");
   command.add_flag("--once", arguments->once, "stop at the end instead of beginning again");
   command.add_option("--fps", arguments->fps,
                      "frames per second, instead of the stream's own: 30, 30000/1001");
-  command.add_option("--speed", arguments->speed, "times the frame rate")
-      ->check(CLI::Range(PlaybackClock::kSlowest, PlaybackClock::kFastest))
-      ->capture_default_str();
+  add_number(
+      command, "--speed", {PlaybackClock::kSlowest, PlaybackClock::kFastest},
+      [arguments](double value) { arguments->speed = value; }, "times the frame rate")
+      ->default_str("1");
   command.add_option("--memory", arguments->memory_mb, "MiB of decoded frames held at most")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();
-  command.add_option("--seconds", arguments->seconds, "close after so long")->check(CLI::PositiveNumber);
+  add_number(
+      command, "--seconds", {0, kMostSeconds, true},
+      [arguments](double value) { arguments->seconds = value; }, "close after so long");
   command.add_option("--screenshot", arguments->screenshot,
                      "save the window with the first frame as .png, and close");
   command.add_option("--report", arguments->report, "write how playing went as JSON, when the window closes");

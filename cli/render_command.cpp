@@ -1,8 +1,10 @@
 #include "cli/commands.hpp"
 #include "cli/look_options.hpp"
 #include "cli/open_source_files.hpp"
+#include "encoder/importers/scene_file.hpp"
 #include "player/render/render_job.hpp"
 #include "player/render/render_options.hpp"
+#include "tool/input_files.hpp"
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -34,6 +36,10 @@ void add_render_command(CLI::App& tool) {
   command.callback([arguments] {
     RenderOptions options = parse_render_arguments(*arguments);
     options.open_source = source_opener();
+    InputFiles inputs;
+    inputs.add(with_scene_files(options.inputs));
+    inputs.add(with_scene_files(options.reference));
+    inputs.check_output(options.output);
     render(options);
   });
 }

@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/number_option.hpp"
 #include "server/stream_server.hpp"
 #include "tool/tool_error.hpp"
 
@@ -72,11 +73,10 @@ void add_serve_command(CLI::App& tool) {
           "for each viewer")
       ->check(CLI::Range(std::uint64_t{1} << 10, std::uint64_t{1} << 31))
       ->capture_default_str();
-  command
-      .add_option("--timeout", arguments->timeout,
-                  "seconds a client may take to send a request, the next bytes of an upload, or to read on")
-      ->check(CLI::Range(0.1, 3600.0))
-      ->capture_default_str();
+  add_number(
+      command, "--timeout", {0.1, 3600}, [arguments](double value) { arguments->timeout = value; },
+      "seconds a client may take to send a request, the next bytes of an upload, or to read on")
+      ->default_str("30");
   command.add_flag("--no-live", arguments->no_live, "serve files only");
   command.add_flag("-q,--quiet", arguments->quiet, "print the URL and errors only");
   command.footer(

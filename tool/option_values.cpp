@@ -89,11 +89,30 @@ double parse_share(const std::string& text) {
   return *value / 100;
 }
 
+double parse_number(const std::string& option, const std::string& text, const NumberRange& range) {
+  const std::optional<double> value = number<double>(text);
+  const bool within = value && std::isfinite(*value) && *value <= range.most &&
+                      (range.least_excluded ? *value > range.least : *value >= range.least);
+  if (within) return *value;
+  constexpr NumberRange kAll;
+  if (range.most < kAll.most) {
+    fail_option(option, text, fmt::format("write a number from {} to {}", range.least, range.most));
+  }
+  if (range.least == kAll.least) fail_option(option, text, "write a number, such as 0.5");
+  fail_option(
+      option, text,
+      fmt::format("write a number {} {}", range.least_excluded ? "above" : "of at least", range.least));
+}
+
+std::uint64_t parse_count(const std::string& option, const std::string& text) {
+  const std::optional<std::uint64_t> value = number<std::uint64_t>(text);
+  if (!value) fail_option(option, text, "write a whole number, counted from 0");
+  return *value;
+}
+
 std::optional<double> parse_positive(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (!std::isfinite(value) || !(value > 0)) return std::nullopt;
+  const std::optional<double> value = number<double>(text);
+  if (!value || !std::isfinite(*value) || !(*value > 0)) return std::nullopt;
   return value;
 }
 
@@ -129,8 +148,7 @@ void fail_option(const std::string& option, const std::string& text, const std::
 
 double parse_rate(const std::string& text) {
   const std::optional<double> rate = parse_frame_rate(text);
-  if (!rate)
-    fail_option("--fps", text, "write frames per second as 30, 29.97 or 30000/1001, from 0.01 to 1000");
+  if (!rate) fail_option("--fps", text, kFrameRateHelp);
   return *rate;
 }
 

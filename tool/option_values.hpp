@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,9 +35,26 @@ StepPair parse_step(const std::string& text);
 /// "35%": 0.35.
 double parse_share(const std::string& text);
 
+/// Where a number may lie: from `least`, or above it, to `most`.
+struct NumberRange {
+  double least = std::numeric_limits<double>::lowest();
+  double most = std::numeric_limits<double>::max();
+  bool least_excluded = false;
+};
+/// The value of an option that takes a number. Throws ToolError (kUsage) for what is none, nan and inf among
+/// it, or lies outside the range.
+double parse_number(const std::string& option, const std::string& text, const NumberRange& range);
+
+/// The value of an option that counts, such as a frame's number. Throws ToolError (kUsage) for what is no
+/// whole number from 0 on.
+std::uint64_t parse_count(const std::string& option, const std::string& text);
+
 /// A finite number above 0; nothing where the text is none.
 std::optional<double> parse_positive(std::string_view text);
 
+/// How a frame rate is written, for messages.
+inline constexpr const char* kFrameRateHelp =
+    "write frames per second as 30, 29.97 or 30000/1001, from 0.01 to 1000";
 /// Frames per second, as metadata and options have them: "30", "29.97" or "30000/1001"; nothing where the
 /// text is no rate between 0.01 and 1000.
 std::optional<double> parse_frame_rate(std::string_view text);

@@ -42,10 +42,14 @@ void append32(std::string& bytes, T value, bool big_endian) {
 
 }  // namespace
 
+std::string mesh_beside(const std::string& cache) {
+  return std::filesystem::path(cache).replace_extension(".obj").string();
+}
+
 CacheSink::CacheSink(const std::string& path, CacheFormat format, const SinkOptions& options)
     : file_(path), format_(format) {
   if (options.mesh_beside_cache && path != "-") {
-    mesh_path_ = std::filesystem::path(path).replace_extension(".obj").string();
+    mesh_path_ = mesh_beside(path);
     check_mesh_beside();
   }
 }

@@ -11,6 +11,9 @@ namespace tvg::cli {
 
 enum class CacheFormat { kPc2, kMdd };
 
+/// The name of the mesh beside a cache: "back.obj" beside "back.pc2".
+std::string mesh_beside(const std::string& cache);
+
 /// A vertex cache, and the mesh with its first frame as OBJ beside it. One connectivity only. Where the
 /// number of frames was unknown or comes out different, the header is corrected in finish().
 class CacheSink final : public FrameSink {

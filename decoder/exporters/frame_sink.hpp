@@ -52,4 +52,7 @@ struct SinkOptions {
 /// Throws ToolError (kUsage) where the suffix is not known or the name is a folder.
 std::unique_ptr<FrameSink> open_sink(const std::string& path, const SinkOptions& options);
 
+/// The names of the files that this sink may write, patterns among them.
+std::vector<std::string> sink_outputs(const std::string& path, const SinkOptions& options);
+
 }  // namespace tvg::cli

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kDefaultWidth = 4;
 
-/// "folder/back.obj" becomes "folder/back_%04d.obj".
+/// What numbered_name() stands for, taken apart; a "%" in the name is no part of the pattern.
 FramePattern pattern_for(const std::string& path) {
   const std::filesystem::path name(path);
   const std::string file_name = name.filename().string();
@@ -20,6 +20,11 @@ FramePattern pattern_for(const std::string& path) {
 }
 
 }  // namespace
+
+std::string numbered_name(const std::string& path) {
+  const FramePattern pattern = pattern_for(path);
+  return pattern.folder + pattern.prefix + "%0" + std::to_string(pattern.width) + "d" + pattern.suffix;
+}
 
 MeshSequenceSink::MeshSequenceSink(const std::string& path, MeshFormat format, const SinkOptions& options)
     : format_(format), options_(options) {

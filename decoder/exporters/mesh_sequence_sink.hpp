@@ -11,6 +11,10 @@
 
 namespace tvg::cli {
 
+/// The pattern of the files of a plain name, where more than one frame comes: "folder/back.obj" becomes
+/// "folder/back_%04d.obj".
+std::string numbered_name(const std::string& path);
+
 /// One mesh file per frame; connectivity may change between frames. A frame's file is complete and in place
 /// when the next frame begins.
 class MeshSequenceSink final : public FrameSink {

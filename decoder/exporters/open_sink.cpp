@@ -1,6 +1,7 @@
 #include "decoder/exporters/cache_sink.hpp"
 #include "decoder/exporters/frame_sink.hpp"
 #include "decoder/exporters/mesh_sequence_sink.hpp"
+#include "tool/frame_pattern.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/tool_error.hpp"
 
@@ -28,6 +29,17 @@ std::unique_ptr<FrameSink> open_sink(const std::string& path, const SinkOptions&
       fmt::format("{} has a suffix that cannot be written: caches are .pc2 or .mdd; meshes, one per frame, "
                   "are .obj, .ply, .off or .stl, in names such as back_%04d.obj",
                   path));
+}
+
+std::vector<std::string> sink_outputs(const std::string& path, const SinkOptions& options) {
+  std::vector<std::string> outputs = {path};
+  if (path == "-") return outputs;
+  if (mesh_format(path)) {
+    if (!parse_frame_pattern(path)) outputs.push_back(numbered_name(path));
+  } else if (options.mesh_beside_cache) {
+    outputs.push_back(mesh_beside(path));
+  }
+  return outputs;
 }
 
 }  // namespace tvg::cli

@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <tvg/source.hpp>
 
@@ -14,6 +15,9 @@ extern const char* const kSceneFormats;
 
 /// Whether the suffix of `path` names a format that may hold clips, bones or vertex animation.
 bool is_scene(const std::string& path);
+
+/// `paths`, and after each scene the files beside it that its format may name: buffers, skeletons, motion.
+std::vector<std::string> with_scene_files(const std::vector<std::string>& paths);
 
 /// A scene in memory, its polygons triangulated. Throws ImportError that names the file: kIo where there is
 /// no such file, kInvalidInput for content that assimp refuses.

@@ -104,7 +104,7 @@ void OverlayFrames::make_legend(bool complete) {
       legend.plain = "other (coarse lattice)";
       break;
     case Overlay::kCost:
-      legend.title = "cost (CURV)";
+      legend.title = kCostTitle;
       legend.note = options_.largest ? "scale as given" : fmt::format("95 % of {}", where);
       break;
     default: {

@@ -13,6 +13,7 @@ namespace tvg::cli {
 namespace {
 
 constexpr int kMostCells = 32;
+constexpr double kMostScale = 1e30;  // float32 holds it
 
 void set_output(RenderOptions& options, const std::string& output) {
   options.output = output;
@@ -58,9 +59,8 @@ RenderOptions parse_render_arguments(const RenderArguments& arguments) {
   options.inputs = arguments.inputs;
   set_output(options, arguments.output);
   if (!arguments.frames.empty()) options.frames = parse_frame_range(arguments.frames);
-  if (!arguments.scale.empty() && !(options.largest = parse_positive(arguments.scale))) {
-    fail_option("--scale", arguments.scale, "write the value of the last colour, above 0");
-  }
+  if (!arguments.scale.empty())
+    options.largest = parse_number("--scale", arguments.scale, {0, kMostScale, true});
   if (!arguments.sheet.empty()) {
     const auto shape = parse_count_pair(arguments.sheet, kMostCells);
     if (!shape)
@@ -69,8 +69,7 @@ RenderOptions parse_render_arguments(const RenderArguments& arguments) {
     options.sheet = {shape->first, shape->second};
   }
   if (!arguments.fps.empty()) {
-    if (!parse_frame_rate(arguments.fps))
-      fail_option("--fps", arguments.fps, "write frames per second as 30 or 30000/1001");
+    static_cast<void>(parse_rate(arguments.fps));
     options.fps = arguments.fps;
   }
   options.side_by_side = arguments.side_by_side;

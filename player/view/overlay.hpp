@@ -14,8 +14,11 @@ namespace tvg::cli {
 /// flags.
 void importance_values(std::span<const std::uint8_t> flags, std::span<float> values);
 
-/// The measure's cost of each vertex over the frames of one GOP ([frame][vertex][xyz]), as the encoder
-/// computes it by default to choose the important ones. [vertex].
+/// What a legend calls cost_values(). A stream does not say which measure chose its important vertices.
+inline constexpr const char* kCostTitle = "cost (curv, the default)";
+
+/// The default measure's cost of each vertex over the frames of one GOP ([frame][vertex][xyz]), as the
+/// encoder computes it without options; a stream may have been marked by another measure. [vertex].
 std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions> frames);
 
 /// Distance of each vertex of a frame from where a reference has it, in the units of the positions.

@@ -59,7 +59,7 @@ class CostDecorator final : public OverlayDecorator {
  public:
   Legend legend() const override {
     Legend legend;
-    legend.title = "cost";
+    legend.title = kCostTitle;
     legend.note = "of the GOP before until a GOP is whole";
     legend.largest = scale_.largest();
     return legend;

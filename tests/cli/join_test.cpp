@@ -103,8 +103,7 @@ TEST_F(JoinTest, DamagedInputsAreNamedWithThePlaceAndLeaveNothing) {
   expect_failure("tvg join a.tvg b.tvg -o no.tvg", 3, "bytes follow the stream's tail");
 }
 
-TEST_F(JoinTest, AnInputMayBeTheOutputOrComeThroughAPipe) {
-  good("tvg join a.tvg b.tvg -o joined.tvg && tvg join a.tvg b.tvg -o a.tvg && cmp a.tvg joined.tvg");
+TEST_F(JoinTest, AnInputMayComeThroughAPipe) {
   good("cat b.tvg | tvg join whole.tvg - -o - | tvg verify -");
   expect_failure("tvg join - - -o no.tvg", 1, "once");
 }

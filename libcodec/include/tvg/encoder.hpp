@@ -10,7 +10,13 @@
 
 namespace tvg {
 
+/// How the frames of a GOP are coded.
+enum class Mode {
+  kElp,  ///< positions, predicted in space and time
+};
+
 struct EncodeOptions {
+  Mode mode = Mode::kElp;
   int fine_bits = 11;    ///< B2, 1 to 24: bits of important vertices
   int coarse_bits = 11;  ///< B1, 1 to B2: bits of the others
   /// Instead of B2: edge of a fine cell in the mesh's units. B2 is then what the bounding box needs, and B1
