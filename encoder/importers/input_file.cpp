@@ -52,19 +52,36 @@ void InputFile::seek(std::uint64_t offset) {
   if (lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) fail("read", errno);
 }
 
-void read_file(const std::string& path, std::string& bytes) {
+void read_file(const std::string& path, std::string& bytes, std::uint64_t most_unsized) {
   InputFile file(path);
+  const std::uint64_t most = std::max(file.size().value_or(0), most_unsized);
   constexpr std::size_t kBlock = std::size_t{1} << 20;
   std::size_t filled = 0;
   // One byte more than the file is said to have, so that its end shows in the first read.
-  bytes.resize(file.size() ? *file.size() + 1 : kBlock);
+  bytes.resize(file.size() ? *file.size() + 1 : std::min<std::uint64_t>(kBlock, most + 1));
   for (;;) {
     filled += file.read(bytes.data() + filled, bytes.size() - filled);
     if (filled < bytes.size()) break;
-    bytes.resize(bytes.size() + std::max(bytes.size(), kBlock));
+    if (filled > most) {
+      bytes = {};
+      throw ImportError(ErrorCode::kInvalidInput,
+                        fmt::format("{} goes on after byte {}, and more is read of a regular file only: copy "
+                                    "it to one",
+                                    file.name(), most));
+    }
+    bytes.resize(std::min<std::uint64_t>(bytes.size() + std::max(bytes.size(), kBlock), most + 1));
   }
   bytes.resize(filled);
   if (filled == 0) throw ImportError(ErrorCode::kInvalidInput, file.name() + " is empty");
+}
+
+void require_regular_file(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) return;
+  throw ImportError(ErrorCode::kIo,
+                    fmt::format("cannot read {}: it is a pipe or a device, and a file of this "
+                                "kind is read more than once: copy it to a regular file",
+                                path));
 }
 
 std::optional<std::string> recognize_content(const std::string& bytes) {

@@ -31,9 +31,17 @@ class InputFile {
   std::optional<std::uint64_t> size_;
 };
 
+/// Bytes that are read of a pipe, a device or another file whose size the system does not know: some have no
+/// end.
+inline constexpr std::uint64_t kMostUnsizedBytes = std::uint64_t{1} << 29;
+
 /// Reads a whole file into `bytes`, whose capacity is reused. An empty file is an ImportError
-/// (kInvalidInput).
-void read_file(const std::string& path, std::string& bytes);
+/// (kInvalidInput), as is one that goes on beyond the size the system says and `most_unsized` bytes.
+void read_file(const std::string& path, std::string& bytes, std::uint64_t most_unsized = kMostUnsizedBytes);
+
+/// Throws ImportError (kIo) where `path` names a pipe or a device, without opening it: for files that are
+/// opened more than once.
+void require_regular_file(const std::string& path);
 
 /// What the first bytes of a file say it is ("a PNG image"), for the formats that users confuse; nothing for
 /// others.

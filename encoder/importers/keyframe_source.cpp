@@ -145,6 +145,7 @@ Result<bool> KeyframeSource::read_frame(std::span<float> positions) {
 }  // namespace
 
 std::optional<std::uint32_t> keyframe_count(const std::string& path) {
+  require_regular_file(path);
   InputFile file(path);
   std::array<char, kHeaderSize> header{};
   const std::size_t size = file.read(header.data(), header.size());

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 
 namespace tvg::cli {
@@ -41,6 +42,10 @@ std::optional<PlyType> type_named(std::string_view name) {
 std::string shown(std::string_view word) {
   return is_plain_text(word) ? std::string(word.substr(0, 40)) : "(binary)";
 }
+
+// Far more than programs write; each value of a body costs a look at its property.
+constexpr std::size_t kMostElements = 256;
+constexpr std::size_t kMostProperties = 4096;
 
 class HeaderReader {
  public:
@@ -102,6 +107,7 @@ class HeaderReader {
   }
 
   void read_element(TextCursor& words) {
+    if (header_.elements.size() == kMostElements) fail(fmt::format("more than {} elements", kMostElements));
     PlyElement element;
     element.line = header_.lines;
     element.name = words.word();
@@ -114,6 +120,7 @@ class HeaderReader {
       if (other.name == element.name) fail(fmt::format("a second element '{}'", shown(element.name)));
     }
     header_.elements.push_back(std::move(element));
+    names_.clear();
   }
 
   void read_property(TextCursor& words) {
@@ -132,9 +139,10 @@ class HeaderReader {
     property.name = words.word();
     PlyElement& element = header_.elements.back();
     if (property.name.empty()) fail("a property without a name");
-    if (element.find(property.name) != element.properties.size()) {
+    if (!names_.insert(property.name).second) {
       fail(fmt::format("a second property '{}'", shown(property.name)));
     }
+    if (++properties_ > kMostProperties) fail(fmt::format("more than {} properties", kMostProperties));
     element.properties.push_back(std::move(property));
   }
 
@@ -147,6 +155,8 @@ class HeaderReader {
   const std::string& file_;
   std::string_view bytes_;
   PlyHeader header_;
+  std::unordered_set<std::string> names_;  // of the properties of the present element
+  std::size_t properties_ = 0;             // of all elements
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 #include "encoder/importers/scene_file.hpp"
 
+#include "encoder/importers/glb_header.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/trial.hpp"
 #include "tool/mesh_format.hpp"
+#include "tool/option_values.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,8 +30,23 @@ constexpr std::array<std::string_view, 17> kSuffixes = {
 constexpr std::array<std::string_view, 7> kSuffixesBeside = {".bin",          ".md5anim", ".smd", ".vta",
                                                              ".skeleton.xml", ".mtl",     ".lwo"};
 
-/// Processor time that assimp has for a file; the largest characters take a few seconds.
-constexpr unsigned kMostSeconds = 120;
+/// Memory that assimp has for a file: the least, and how many times the bytes of the file and of those that
+/// it may name.
+constexpr std::uint64_t kLeastMemory = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMemoryPerByte = 64;
+
+/// What assimp has for a file; the largest characters take a few seconds.
+TrialLimits limits_for(const std::string& path) {
+  TrialLimits limits;
+  std::uint64_t bytes = 0;
+  for (const std::string& file : with_scene_files({path})) {
+    std::error_code error;
+    const std::uint64_t size = std::filesystem::file_size(file, error);
+    if (!error) bytes += size;
+  }
+  limits.memory_bytes = kLeastMemory + kMemoryPerByte * bytes;
+  return limits;
+}
 
 /// FBX says centimetres per unit.
 std::string unit_of_centimetres(double centimetres) {
@@ -67,20 +84,27 @@ const aiScene* import(Assimp::Importer& importer, const std::string& path,
   return importer.ReadFile(path, aiProcess_Triangulate);
 }
 
-/// assimp crashes or hangs on some damaged files (a cut .md5mesh, for one), so a child process goes first.
+/// assimp crashes, hangs or takes all memory on some damaged files (a cut .md5mesh, for one), so a child
+/// process goes first.
 void try_import(const SceneFile& file, std::optional<std::uint32_t> keyframe) {
   const auto action = [&file, keyframe] {
     Assimp::Importer importer;
     import(importer, file.path(), keyframe);
   };
-  switch (run_trial(action, kMostSeconds)) {
+  const TrialLimits limits = limits_for(file.path());
+  switch (run_trial(action, limits)) {
     case TrialResult::kFine:
       return;
     case TrialResult::kCrashed:
       file.fail("it is damaged or no such file as its suffix says: assimp, which reads it, crashes on it");
     case TrialResult::kTooLong:
       file.fail(fmt::format("it is damaged or too large: assimp, which reads it, does not end within {} s",
-                            kMostSeconds));
+                            limits.cpu_seconds));
+    case TrialResult::kTooMuchMemory:
+      file.fail(
+          fmt::format("it is damaged or too large: assimp, which reads it, asks for more than {} of "
+                      "memory, or than there is",
+                      readable_bytes(limits.memory_bytes)));
   }
 }
 
@@ -120,7 +144,9 @@ struct SceneFile::Import {
 SceneFile::SceneFile(const std::string& path, std::optional<std::uint32_t> keyframe)
     : path_(path), import_(std::make_unique<Import>()) {
   // A file that is not there, or may not be read, is told in the system's own words.
+  require_regular_file(path);
   InputFile readable(path);
+  if (has_suffix(path, ".glb")) check_glb_sizes(path);
   // Frames after the first come from a file that has been tried.
   if (keyframe.value_or(0) == 0) try_import(*this, keyframe);
   std::string reason;
