@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "decoder/exporters/frame_sink.hpp"
+#include "tool/concealment.hpp"
 #include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
@@ -29,6 +30,7 @@ class DecodeJob {
       : arguments_(arguments),
         reader_(arguments.input),
         sink_(open_sink(arguments.output, {})),
+        concealment_(reader_.name(), arguments.conceal),
         bar_("decoding", arguments.quiet) {}
 
   void run() {
@@ -115,29 +117,14 @@ class DecodeJob {
   }
 
   void conceal_damage(const Damage& damage) {
-    const std::string where =
-        damage.frame_count > 0 ? frame_run(damage.first_frame, damage.frame_count) + " lost: " : "";
-    std::uint64_t affected = 0;
-    for (std::uint64_t i = 0; i < damage.frame_count && !(wanted_ && damage.first_frame + i > wanted_->last);
-         ++i) {
-      affected += is_wanted(damage.first_frame + i) ? 1 : 0;
-    }
-    if (wanted_ && affected == 0) return;
-    const std::string text = fmt::format("{}: {}{}", reader_.name(), where, damage.error.describe());
-    if (!arguments_.conceal) {
-      throw ToolError(
-          ExitStatus::kInvalidInput,
-          fmt::format("{}; {} (--conceal holds the last good frame instead)", text, what_is_left()));
-    }
-    fmt::print(stderr, "tvg: {}\n", text);
-    lost_ += affected;
+    const std::optional<HeldFrames> lost = concealment_.hold(damage, wanted_, what_is_left());
+    if (!lost) return;
+    lost_ += lost->count();
     next_frame_ = damage.first_frame + damage.frame_count;
-    constexpr std::uint64_t kMostHeld = 1u << 20;  // a damaged number must not fill the disk
-    if (affected > kMostHeld) throw ToolError(ExitStatus::kInvalidInput, text);
     if (written_ == 0) {
-      held_ += affected;
+      held_ += lost->count();
     } else {
-      for (; affected > 0; --affected) sink_->write_frame(positions_);
+      for (std::uint64_t frame = lost->first; frame < lost->end; ++frame) sink_->write_frame(positions_);
     }
     if (wanted_ && next_frame_ > wanted_->last) done_ = true;
   }
@@ -151,7 +138,7 @@ class DecodeJob {
 
   void fail_or_stop(const Error& error) {
     if (!arguments_.conceal || written_ == 0) throw tool_error(reader_.name(), error);
-    fmt::print(stderr, "tvg: {}: {}\n", reader_.name(), error.describe());
+    concealment_.tell(error);
     done_ = true;
   }
 
@@ -168,6 +155,7 @@ class DecodeJob {
   const DecodeArguments& arguments_;
   StreamReader reader_;
   std::unique_ptr<FrameSink> sink_;
+  Concealment concealment_;
   ProgressBar bar_;
   std::optional<std::vector<IndexEntry>> index_;
   std::optional<std::uint64_t> total_;          ///< frames of the stream

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fcntl.h>
 #include <filesystem>
 #include <sys/stat.h>
@@ -27,6 +28,38 @@ struct TemporaryName {
   std::atomic<bool> valid{false};
   std::array<char, 4096> path{};
 };
+constexpr std::array kEndingSignals = {SIGINT, SIGTERM, SIGHUP};
+
+/// Files that are made and not registered yet, in all threads; and whether no more may be made.
+std::atomic<int> unregistered{0};
+std::atomic<bool> ending{false};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+/// While it lives, no signal ends the process between the making of a file and its registration: this thread
+/// hears of none, and the handler in another thread waits. Nothing is made once the handler runs.
+class MakingFile {
+ public:
+  MakingFile() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : kEndingSignals) sigaddset(&signals, signal);
+    pthread_sigmask(SIG_BLOCK, &signals, &before_);
+    ++unregistered;
+    if (!ending) return;
+    --unregistered;
+    for (;;) pause();
+  }
+  ~MakingFile() {
+    --unregistered;
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  MakingFile(const MakingFile&) = delete;
+  MakingFile& operator=(const MakingFile&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
 constexpr std::size_t kMostTemporaryNames = 16;
 std::array<TemporaryName, kMostTemporaryNames> temporary_names;
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -50,6 +83,9 @@ void forget_temporary(const std::string& path) {
 }
 
 extern "C" void remove_temporaries_and_end(int signal) {
+  constexpr timespec kMoment{0, 1000000};
+  ending = true;
+  for (int moments = 0; unregistered > 0 && moments < 1000; ++moments) nanosleep(&kMoment, nullptr);
   for (const TemporaryName& name : temporary_names) {
     if (name.valid) unlink(name.path.data());
   }
@@ -96,6 +132,7 @@ void AtomicFile::open_temporary(const std::string& target) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     std::string name = stem;
     if (attempt > 0) name.append(1, '-').append(std::to_string(attempt));
+    const MakingFile making;
     descriptor_ = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor_ >= 0) {
       temporary_ = std::move(name);
@@ -194,7 +231,7 @@ void remove_temporary_files_on_signals() {
   struct sigaction action {};
   action.sa_handler = remove_temporaries_and_end;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : kEndingSignals) {
     struct sigaction current {};
     if (sigaction(signal, nullptr, &current) == 0 && current.sa_handler == SIG_IGN) continue;  // nohup
     sigaction(signal, &action, nullptr);

@@ -1,25 +1,26 @@
 #include "player/render/shown_frames.hpp"
 #include "player/view/overlay.hpp"
+#include "tool/concealment.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <utility>
 
 namespace tvg::cli {
 
 namespace {
 
-/// A damaged number of lost frames must not fill the disk with pictures.
-constexpr std::uint64_t kMostLost = 1U << 20;
-
 /// Frames of a .tvg. Where frames are lost and that is to be concealed, the last good one is given out again
 /// under their numbers; the first good one where there was none before.
 class StreamFrames final : public ShownFrames {
  public:
-  explicit StreamFrames(ShownFramesSpec spec) : spec_(std::move(spec)) { open(); }
+  explicit StreamFrames(ShownFramesSpec spec)
+      : spec_(std::move(spec)),
+        concealment_(spec_.inputs.front() == "-" ? "standard input" : spec_.inputs.front(), spec_.conceal) {
+    open();
+  }
 
   bool next(ShownFrame& frame) override {
     for (;;) {
@@ -38,7 +39,7 @@ class StreamFrames final : public ShownFrames {
 
   bool rewind() override {
     if (!reader_->size()) return false;
-    told_ = told_ || ended_ || lost_end_ > 0;
+    if (ended_ || lost_end_ > 0) concealment_.fall_silent();
     open();
     return true;
   }
@@ -108,7 +109,7 @@ class StreamFrames final : public ShownFrames {
         break;
       case Decoder::Event::kError:
         if (!spec_.conceal || !held_.mesh) throw tool_error(reader_->name(), decoder.error());
-        tell(decoder.error(), "");
+        concealment_.tell(decoder.error());
         ended_ = true;
         break;
       case Decoder::Event::kEnd:
@@ -139,30 +140,17 @@ class StreamFrames final : public ShownFrames {
     importance_values(flags_, loaded_frame_.values);
   }
 
-  /// Tells the user once what is wrong: a stream that is cut reports its end as the cause of the loss, too.
-  void tell(const Error& error, const std::string& where) {
-    const bool same =
-        told_error_ && told_error_->code == error.code && told_error_->byte_offset == error.byte_offset;
-    told_error_ = error;
-    if (!told_ && !same) fmt::print(stderr, "tvg: {}: {}{}\n", reader_->name(), where, error.describe());
-  }
-
   void lose(const Damage& damage) {
-    const std::uint64_t end = damage.first_frame + std::min(damage.frame_count, kMostLost + 1);
-    const bool of_use = !spec_.frames || (end > number_ && damage.first_frame <= spec_.frames->last);
-    if (damage.frame_count > 0 && !of_use) return;
-    const std::string where =
-        damage.frame_count > 0 ? frame_run(damage.first_frame, damage.frame_count) + " lost: " : "";
-    const std::string text = fmt::format("{}: {}{}", reader_->name(), where, damage.error.describe());
-    if (!spec_.conceal) {
-      throw ToolError(ExitStatus::kInvalidInput, text + " (--conceal holds the last good frame instead)");
-    }
-    if (damage.frame_count > kMostLost) throw ToolError(ExitStatus::kInvalidInput, text);
-    tell(damage.error, where);
-    lost_end_ = std::max(lost_end_, end);
+    // Not from the first frame wanted on, but from the one that comes next: a GOP may be wanted whole.
+    std::optional<FrameRange> wanted = spec_.frames;
+    if (wanted && number_ > wanted->last) return;
+    if (wanted) wanted->first = number_;
+    const std::optional<HeldFrames> lost = concealment_.hold(damage, wanted);
+    if (lost) lost_end_ = std::max(lost_end_, lost->end);
   }
 
   ShownFramesSpec spec_;
+  Concealment concealment_;
   std::unique_ptr<StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
   std::optional<std::uint64_t> total_;
@@ -171,10 +159,8 @@ class StreamFrames final : public ShownFrames {
   ShownFrame held_;          // the last good one given out
   bool loaded_ = false;
   bool ended_ = false;
-  bool told_ = false;                // whether the user has heard of the damage, in an earlier pass
-  std::optional<Error> told_error_;  // the last that was told
-  std::uint64_t number_ = 0;         // of the next frame to give out
-  std::uint64_t lost_end_ = 0;       // one past the last frame lost
+  std::uint64_t number_ = 0;    // of the next frame to give out
+  std::uint64_t lost_end_ = 0;  // one past the last frame lost
   std::uint64_t gop_ = 0;
   std::uint64_t gop_end_ = 0;
 };

@@ -2,9 +2,12 @@
 
 #include "tests/importers/io_toolbox.hpp"
 
+#include <csignal>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <thread>
 
 namespace tvg::cli {
 namespace {
@@ -85,6 +88,31 @@ TEST(AtomicFile, ReportsAFullDisk) {
   const ToolError full = thrown_by([&] { file.finish(); });
   EXPECT_EQ(full.status(), ExitStatus::kIo);
   EXPECT_THAT(full.what(), HasSubstr("cannot write /dev/full: No space left on device"));
+}
+
+/// Makes files in two threads until a signal ends the process.
+[[noreturn]] void make_files_for_ever(const std::string& folder) {
+  remove_temporary_files_on_signals();
+  const auto make = [&folder](int thread) {
+    for (;;) AtomicFile(folder + "/" + std::to_string(thread)).write("x");
+  };
+  std::thread other(make, 1);
+  make(0);
+  std::abort();
+}
+
+TEST(AtomicFile, ASignalAtAnyMomentLeavesNoTemporaryFile) {
+  const TemporaryFolder folder;
+  for (int round = 0; round < 40; ++round) {
+    const pid_t child = fork();
+    if (child == 0) make_files_for_ever(folder.path(""));
+    std::this_thread::sleep_for(std::chrono::microseconds(5000 + 137 * round));
+    kill(child, SIGTERM);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+  }
+  EXPECT_THAT(folder.names(), IsEmpty());
 }
 
 }  // namespace
