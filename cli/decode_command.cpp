@@ -175,7 +175,10 @@ class DecodeJob {
 
 void add_decode_command(CLI::App& tool) {
   auto arguments = std::make_shared<DecodeArguments>();
-  CLI::App& command = *tool.add_subcommand("decode", "Restore the frames of a .tvg");
+  CLI::App& command = *tool.add_subcommand(
+      "decode",
+      "Restore the frames of a .tvg. Positions are float32: with more than 20 bits, their rounding can put a "
+      "coordinate off by more than half a step.");
   command.add_option("input", arguments->input, "the stream; - for standard input")->required();
   command
       .add_option(

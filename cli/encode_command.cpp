@@ -193,7 +193,7 @@ void add_encode_command(CLI::App& tool) {
       .add_option(
           "--step", arguments->step,
           "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
-          "off by more than half a step")
+          "off by more than half a step, but for the rounding of decoded positions to float32")
       ->excludes(bits);
   add_measure_options(command, arguments->measure);
   command.add_option("--mode", arguments->mode, "how frames are coded: elp")->capture_default_str();

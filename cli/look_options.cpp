@@ -17,9 +17,10 @@ void add_view_options(CLI::App& command, LookArguments& arguments) {
 
 void add_look_options(CLI::App& command, LookArguments& arguments) {
   command
-      .add_option("--overlay", arguments.overlay,
-                  "colour by importance (flags of a .tvg), cost (the measure over each GOP) or error "
-                  "(distance to --ref)")
+      .add_option(
+          "--overlay", arguments.overlay,
+          "colour by importance (flags of a .tvg), cost (of curv, the default measure, over each GOP, "
+          "whatever the stream was marked by) or error (distance to --ref)")
       ->capture_default_str();
   command.add_option("--ref", arguments.reference,
                      "the reference: a .tvg, a mesh file and its cache, or a sequence of mesh files");
