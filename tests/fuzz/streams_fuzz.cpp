@@ -37,12 +37,19 @@ tvg::DecoderLimits small_limits() {
 
 /// What a decoder says of a whole stream.
 struct Verdict {
-  std::uint64_t good = 0;
-  std::uint64_t lost = 0;
+  std::vector<bool> told;  ///< [frame]: given out, or said to be lost, or both where a digest proves it wrong
+  bool absurd = false;
   bool damaged = false;
   bool broken = false;  ///< decoding could not go on to the end
 
   bool valid() const { return !damaged && !broken; }
+  void tell(std::uint64_t first, std::uint64_t count) {
+    constexpr std::uint64_t kMost = 1u << 20;  // a damaged count may say anything
+    absurd = absurd || first > kMost || count > kMost;
+    if (absurd) return;
+    if (told.size() < first + count) told.resize(first + count);
+    for (std::uint64_t frame = first; frame < first + count; ++frame) told[frame] = true;
+  }
 };
 
 Verdict verify(std::span<const std::uint8_t> stream) {
@@ -53,11 +60,11 @@ Verdict verify(std::span<const std::uint8_t> stream) {
   for (;;) {
     switch (decoder.poll()) {
       case Decoder::Event::kFrame:
-        ++verdict.good;
+        verdict.tell(decoder.frame_number(), 1);
         break;
       case Decoder::Event::kDamage:
         verdict.damaged = true;
-        verdict.lost += decoder.damage().frame_count;
+        verdict.tell(decoder.damage().first_frame, decoder.damage().frame_count);
         break;
       case Decoder::Event::kError:
         verdict.broken = true;
@@ -93,8 +100,10 @@ tvg::JoinInput input_of(const Stream& stream) {
 void check_made(const Stream& made, std::uint64_t frames, bool from_valid) {
   const Verdict verdict = verify(made);
   require(!verdict.broken);
-  require(verdict.good + verdict.lost == frames);
   require(verdict.valid() || !from_valid);
+  require(!verdict.absurd && verdict.told.size() >= frames);
+  for (std::uint64_t frame = 0; frame < frames; ++frame) require(verdict.told[frame]);
+  require(verdict.told.size() == frames || !from_valid);
 }
 
 void run_join(const Stream& stream, const Verdict& verdict, std::uint8_t options, std::uint8_t range) {
