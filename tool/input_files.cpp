@@ -27,11 +27,12 @@ std::optional<struct stat> regular_file(const std::string& path, int standard) {
 /// Calls `use(path)` for each entry of a folder that `wanted(name)` picks.
 template <class Wanted, class Use>
 void for_each_file(const std::string& folder, Wanted wanted, Use use) {
+  const std::string prefix = folder.empty() || folder.ends_with('/') ? folder : folder + '/';
   std::error_code error;
   fs::directory_iterator entry(folder.empty() ? "." : folder, error);
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (wanted(name)) use(folder.empty() || folder.ends_with('/') ? folder + name : folder + "/" + name);
+    if (wanted(name)) use(std::string(prefix).append(name));
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string_view>
 
 namespace tvg::cli {
 
@@ -42,10 +41,14 @@ const Json& element(const Json& array, std::size_t index) {
 }  // namespace
 
 GltfKeys find_gltf_keys(const std::string& path, std::size_t clip) {
-  GltfKeys keys;
-  if (!has_suffix(path, ".gltf") && !has_suffix(path, ".glb")) return keys;
+  if (!has_suffix(path, ".gltf") && !has_suffix(path, ".glb")) return {};
   std::string bytes;
   read_file(path, bytes);
+  return parse_gltf_keys(bytes, clip);
+}
+
+GltfKeys parse_gltf_keys(std::string_view bytes, std::size_t clip) {
+  GltfKeys keys;
   const Json json = Json::parse(json_text(bytes), nullptr, false);
   const Json& animation = element(member(json, "animations"), clip);
   const Json& channels = member(animation, "channels");

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace tvg::cli {
 
@@ -13,5 +14,8 @@ struct GltfKeys {
 
 /// Looks into the JSON of a .gltf or .glb file that assimp has accepted. Nothing is found in other files.
 GltfKeys find_gltf_keys(const std::string& path, std::size_t clip);
+
+/// The same of the bytes of such a file.
+GltfKeys parse_gltf_keys(std::string_view bytes, std::size_t clip);
 
 }  // namespace tvg::cli

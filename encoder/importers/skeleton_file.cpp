@@ -144,12 +144,16 @@ class JointedSource final : public FrameSource {
 JointTracks read_skeleton_file(const std::string& path) {
   std::string text;
   read_file(path, text);
+  return parse_skeleton(path, text);
+}
+
+JointTracks parse_skeleton(const std::string& file, std::string_view text) {
   const json document = json::parse(text, nullptr, false);
   if (document.is_discarded()) {
     throw ImportError(ErrorCode::kInvalidInput,
-                      fmt::format("{} is not well-formed JSON, so it is no skeleton", path));
+                      fmt::format("{} is not well-formed JSON, so it is no skeleton", file));
   }
-  return SkeletonReader(path, document).read();
+  return SkeletonReader(file, document).read();
 }
 
 std::unique_ptr<FrameSource> with_joints(std::unique_ptr<FrameSource> source, JointTracks tracks,

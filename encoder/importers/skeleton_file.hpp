@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include <tvg/skeleton.hpp>
 #include <tvg/source.hpp>
@@ -13,6 +14,9 @@ namespace tvg::cli {
 ///    "heaviest_joint": [0, 0, 1, ...]}             [vertex]; may be left out
 /// Parents come before their children; a root has none (null). Throws ImportError: kIo, kInvalidInput.
 JointTracks read_skeleton_file(const std::string& path);
+
+/// The same of the text of such a file; `file` is its name for messages.
+JointTracks parse_skeleton(const std::string& file, std::string_view text);
 
 /// A source that brings the joints of `tracks` along with the frames of another. The first frame that is read
 /// has those of frame `first_frame` of the tracks. Throws ImportError (kInvalidInput) unless `tracks`, which

@@ -117,6 +117,10 @@ std::vector<double> read_text(const std::string& path, const std::string& text) 
 std::vector<double> read_vertex_weights(const std::string& path) {
   std::string bytes;
   read_file(path, bytes);
+  return parse_vertex_weights(path, bytes);
+}
+
+std::vector<double> parse_vertex_weights(const std::string& path, const std::string& bytes) {
   std::vector<double> weights = has_suffix(path, ".npy") ? read_numpy(path, bytes) : read_text(path, bytes);
   const auto bad =
       std::find_if_not(weights.begin(), weights.end(), [](double w) { return std::isfinite(w); });

@@ -9,4 +9,7 @@ namespace tvg::cli {
 /// or float64. All numbers are finite. Throws ImportError: kIo, kInvalidInput, kTruncated.
 std::vector<double> read_vertex_weights(const std::string& path);
 
+/// The same of the bytes of such a file; `path` is its name.
+std::vector<double> parse_vertex_weights(const std::string& path, const std::string& bytes);
+
 }  // namespace tvg::cli

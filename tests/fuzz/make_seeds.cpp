@@ -41,6 +41,18 @@ bool write_decoder_seeds(const fs::path& folder, const std::string& name,
   return true;
 }
 
+/// The seeds of join and relay: options, and the range of frames and size of pieces in front of the stream.
+bool write_streams_seeds(const fs::path& folder, const std::string& name,
+                         const std::vector<std::uint8_t>& stream) {
+  constexpr std::array<std::array<std::uint8_t, 2>, 4> kStarts = {{{0, 0}, {2, 61}, {7, 0}, {8, 0x10}}};
+  for (const auto& start : kStarts) {
+    std::vector<std::uint8_t> seed(start.begin(), start.end());
+    seed.insert(seed.end(), stream.begin(), stream.end());
+    if (!write_file(folder / (name + "-" + std::to_string(start[0])), seed)) return false;
+  }
+  return true;
+}
+
 /// The C interface's seeds: options, calls in front of the stream as c_api_fuzz.cpp reads them.
 bool write_c_api_seeds(const fs::path& folder, const std::string& name,
                        const std::vector<std::uint8_t>& stream) {
@@ -89,6 +101,7 @@ int main(int argc, char** argv) {
   fs::create_directories(target / "decoder_fuzz", failed);
   fs::create_directories(target / "connectivity_fuzz", failed);
   fs::create_directories(target / "c_api_fuzz", failed);
+  fs::create_directories(target / "streams_fuzz", failed);
   int count = 0;
   for (const auto& entry : fs::directory_iterator(argv[1], failed)) {
     if (entry.path().extension() != ".tvg") continue;
@@ -98,6 +111,7 @@ int main(int argc, char** argv) {
     const std::string name = entry.path().stem();
     if (stream.size() < tvg::kSignature.size() ||
         !write_decoder_seeds(target / "decoder_fuzz", name, stream) ||
+        !write_streams_seeds(target / "streams_fuzz", name, stream) ||
         !write_c_api_seeds(target / "c_api_fuzz", name, stream) ||
         !write_connectivity_seeds(target / "connectivity_fuzz", name, stream)) {
       std::fprintf(stderr, "tvg_make_seeds: no seeds from %s\n", entry.path().c_str());
