@@ -37,7 +37,7 @@ class RunningServer {
   int port() const { return server_->port(); }
   httplib::Client client() const {
     httplib::Client client("127.0.0.1", server_->port());
-    client.set_read_timeout(10);
+    client.set_read_timeout(60);
     return client;
   }
 
@@ -55,7 +55,7 @@ class RawClient {
     EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&own), sizeof own), 0);
     sockaddr_in address = address_of("127.0.0.1", port);
     EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-    const timeval only_a_hang{20, 0};
+    const timeval only_a_hang{60, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &only_a_hang, sizeof only_a_hang);
   }
   ~RawClient() { ::close(socket_); }
@@ -122,9 +122,9 @@ inline test::DecodedStream decode_text(const std::string& bytes) {
   return test::decode_stream(test::Stream(bytes.begin(), bytes.end()));
 }
 
-/// Waits for what other threads bring about; false after ten seconds.
+/// Waits for what other threads bring about; false after a time that only a hang exceeds.
 inline bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
