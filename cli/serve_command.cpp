@@ -63,6 +63,12 @@ void add_serve_command(CLI::App& tool) {
   command.add_option("--max-clients", options.max_clients, "connections at a time; the next gets 503")
       ->check(CLI::Range(std::size_t{1}, kMostClients))
       ->capture_default_str();
+  command
+      .add_option(
+          "--max-per-address", options.max_per_address,
+          "of these, connections from one address; a reverse proxy is one, so give it as many as clients")
+      ->check(CLI::Range(std::size_t{1}, kMostClients))
+      ->capture_default_str();
   command.add_option("--max-live-streams", options.max_live_streams, "streams published at a time")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -1,12 +1,16 @@
 #include "server/connection.hpp"
 
+#include "server/request_head.hpp"
+
 #include <algorithm>
 #include <arpa/inet.h>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <string_view>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -15,7 +19,6 @@ namespace tvg::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kSlice{100};  // how late a wait hears that the server is stopping
-constexpr std::chrono::milliseconds kLinger{1000};
 
 void read_address(const sockaddr_storage& address, std::string& ip, int& port) {
   std::array<char, INET6_ADDRSTRLEN> text{};
@@ -35,6 +38,16 @@ void read_address(const sockaddr_storage& address, std::string& ip, int& port) {
 
 }  // namespace
 
+std::string address_of_peer(socket_t socket) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  std::string ip;
+  int port = 0;
+  if (::getpeername(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0)
+    read_address(address, ip, port);
+  return ip;
+}
+
 Connection::Connection(socket_t socket, std::chrono::milliseconds time_limit,
                        const std::atomic<bool>& stopping)
     : socket_(socket), time_limit_(time_limit), stopping_(stopping) {
@@ -47,7 +60,7 @@ Connection::Connection(socket_t socket, std::chrono::milliseconds time_limit,
 }
 
 Connection::~Connection() {
-  ::close(socket_);
+  if (socket_ >= 0) ::close(socket_);
 }
 
 bool Connection::wait_for(short events, Clock::time_point deadline) const {
@@ -61,36 +74,57 @@ bool Connection::wait_for(short events, Clock::time_point deadline) const {
   }
 }
 
-bool Connection::fill(Clock::time_point deadline) {
-  begin_ = end_ = 0;
+Connection::Fill Connection::fill(Clock::time_point deadline) {
+  received_.erase(0, begin_);
+  begin_ = 0;
+  std::array<char, std::size_t{1} << 14> piece;
   for (;;) {
-    if (!wait_for(POLLIN, deadline)) return false;
-    const ssize_t got = ::recv(socket_, buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+    if (!wait_for(POLLIN, deadline)) return stopping_ ? Fill::kGone : Fill::kTimeUp;
+    const ssize_t got = ::recv(socket_, piece.data(), piece.size(), MSG_DONTWAIT);
     if (got > 0) {
-      end_ = static_cast<std::size_t>(got);
-      return true;
+      received_.append(piece.data(), static_cast<std::size_t>(got));
+      return Fill::kBytes;
     }
-    if (got == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) return false;
+    if (got == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) return Fill::kGone;
   }
 }
 
-bool Connection::begin_request(std::chrono::milliseconds time) {
-  if (begin_ == end_ && !fill(Clock::now() + time)) return false;
-  in_head_ = true;
-  head_bytes_ = 0;
-  head_deadline_ = Clock::now() + time_limit_;
-  return true;
+Connection::Await Connection::await_request(std::chrono::milliseconds time) {
+  if (begin_ < received_.size()) return Await::kThere;
+  switch (fill(Clock::now() + time)) {
+    case Fill::kBytes:
+      return Await::kThere;
+    case Fill::kTimeUp:
+      return Await::kNothingYet;
+    case Fill::kGone:
+      break;
+  }
+  return Await::kGone;
 }
 
-void Connection::close_gently() {
-  ::shutdown(socket_, SHUT_WR);
-  const Clock::time_point deadline = Clock::now() + kLinger;
-  while (fill(deadline)) {
+Connection::Head Connection::take_head(std::string& head) {
+  const Clock::time_point deadline = Clock::now() + time_limit_;
+  for (;;) {
+    const std::string_view there = std::string_view(received_).substr(begin_);
+    const std::size_t end = end_of_head(there);
+    if (std::min(end, there.size()) > kMostHeadBytes) return Head::kTooLong;
+    if (end != std::string_view::npos) {
+      head = there.substr(0, end);
+      begin_ += end;
+      return Head::kWhole;
+    }
+    const Fill filled = fill(deadline);
+    if (filled != Fill::kBytes) return filled == Fill::kTimeUp ? Head::kTooSlow : Head::kCut;
   }
+}
+
+void Connection::put_back(const std::string& head) {
+  received_.replace(0, begin_, head);
+  begin_ = 0;
 }
 
 bool Connection::is_readable() const {
-  if (begin_ < end_) return true;
+  if (begin_ < received_.size()) return true;
   pollfd entry{socket_, POLLIN, 0};
   return ::poll(&entry, 1, 0) > 0;
 }
@@ -102,10 +136,9 @@ bool Connection::is_writable() const {
 }
 
 ssize_t Connection::read(char* data, std::size_t size) {
-  if (in_head_ && ++head_bytes_ > kMostHeadBytes) return -1;  // heads are read byte by byte
-  if (begin_ == end_ && !fill(in_head_ ? head_deadline_ : Clock::now() + time_limit_)) return -1;
-  const std::size_t count = std::min(size, end_ - begin_);
-  std::memcpy(data, buffer_.data() + begin_, count);
+  if (begin_ == received_.size() && fill(Clock::now() + time_limit_) != Fill::kBytes) return -1;
+  const std::size_t count = std::min(size, received_.size() - begin_);
+  std::memcpy(data, received_.data() + begin_, count);
   begin_ += count;
   return static_cast<ssize_t>(count);
 }

@@ -1,11 +1,14 @@
 #pragma once
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <httplib.h>
 #include <string>
+#include <utility>
 
 namespace tvg::cli {
+
+/// The address of a socket's peer as text; empty where it has gone.
+std::string address_of_peer(socket_t socket);
 
 /// An accepted socket with limits on what its peer may take: a request's head must be in within the time
 /// limit and kMostHeadBytes, a body's next byte within the time limit of the last, and whatever is written at
@@ -13,20 +16,23 @@ namespace tvg::cli {
 /// socket.
 class Connection final : public httplib::Stream {
  public:
-  static constexpr std::size_t kMostHeadBytes = std::size_t{1} << 15;
-
   Connection(socket_t socket, std::chrono::milliseconds time_limit, const std::atomic<bool>& stopping);
   ~Connection() override;
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// Waits for the next request's first byte; false when there will be none. Limits of a head hold from here.
-  bool begin_request(std::chrono::milliseconds time);
-  /// The head is in: what follows is a body.
-  void end_head() { in_head_ = false; }
-  /// Says that nothing more will be written, and takes what the peer still sends for a moment: closing with
-  /// bytes unread would destroy what it has not read yet of the answer.
-  void close_gently();
+  enum class Await { kThere, kNothingYet, kGone };
+  /// Waits for the next request's first byte.
+  Await await_request(std::chrono::milliseconds time);
+
+  enum class Head { kWhole, kTooLong, kTooSlow, kCut };
+  /// Takes the head of the request that has begun, up to and with its empty line.
+  Head take_head(std::string& head);
+  /// What read() gives out before anything else: a head that was taken.
+  void put_back(const std::string& head);
+
+  /// Gives the socket away.
+  socket_t release() { return std::exchange(socket_, -1); }
 
   bool is_readable() const override;
   /// Whether bytes can be written now or soon; false when the peer has gone.
@@ -42,18 +48,16 @@ class Connection final : public httplib::Stream {
  private:
   using Clock = std::chrono::steady_clock;
 
+  enum class Fill { kBytes, kTimeUp, kGone };
+
   bool wait_for(short events, Clock::time_point deadline) const;
-  bool fill(Clock::time_point deadline);
+  Fill fill(Clock::time_point deadline);
 
   socket_t socket_;
   std::chrono::milliseconds time_limit_;
   const std::atomic<bool>& stopping_;
-  bool in_head_ = true;
-  Clock::time_point head_deadline_{};
-  std::size_t head_bytes_ = 0;
-  std::array<char, std::size_t{1} << 14> buffer_{};
+  std::string received_;  ///< and not given out from begin_ on
   std::size_t begin_ = 0;
-  std::size_t end_ = 0;
 };
 
 }  // namespace tvg::cli

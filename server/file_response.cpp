@@ -1,5 +1,7 @@
 #include "server/file_response.hpp"
 
+#include "server/request_head.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -20,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 16;
-constexpr std::size_t kMostRanges = 16;
 
 /// A regular file open for reading.
 class OpenFile {
@@ -99,7 +100,7 @@ bool is_unchanged(const httplib::Request& request, const OpenFile& file) {
 }
 
 bool range_is_wanted(const httplib::Request& request, const OpenFile& file) {
-  if (request.method != "GET" || !request.has_header("Range")) return false;
+  if (request.method != "GET" || !request.has_header(kRangeHeader)) return false;
   if (!request.has_header("If-Range")) return true;
   const std::string condition = request.get_header_value("If-Range");
   return condition == file.etag() || condition == http_date(file.modified());
@@ -110,84 +111,17 @@ bool parse_number(std::string_view text, std::uint64_t& number) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// A body made of texts and of spans of a file.
-class SegmentedBody {
- public:
-  explicit SegmentedBody(std::shared_ptr<OpenFile> file) : file_(std::move(file)) {}
-
-  void add(std::string text) { segments_.push_back({std::move(text), {}}); }
-  void add(const ByteSpan& span) { segments_.push_back({"", span}); }
-  std::uint64_t size() const {
-    std::uint64_t size = 0;
-    for (const Segment& segment : segments_) size += segment.text.size() + segment.span.size;
-    return size;
-  }
-
-  /// Writes the next piece; false when the file has become shorter or the receiver has gone.
-  bool write_some(httplib::DataSink& sink) {
-    while (current_ < segments_.size()) {
-      Segment& segment = segments_[current_];
-      if (!segment.text.empty()) {
-        const std::string text = std::exchange(segment.text, {});
-        return sink.write(text.data(), text.size());
-      }
-      if (segment.span.size > 0) {
-        const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(segment.span.size, kPieceBytes));
-        piece_.resize(kPieceBytes);
-        const std::size_t got = file_->read_at(segment.span.offset, piece_.data(), wanted);
-        segment.span.offset += got;
-        segment.span.size -= got;
-        return got > 0 && sink.write(piece_.data(), got);
-      }
-      ++current_;
-    }
-    sink.done();
-    return true;
-  }
-
- private:
-  struct Segment {
-    std::string text;
-    ByteSpan span;
+/// Sends a part of a file; it is read while it is sent.
+void set_body(std::shared_ptr<OpenFile> file, const ByteSpan& span, const std::string& type,
+              httplib::Response& response) {
+  if (span.size == 0) return response.set_content("", type);  // httplib takes length 0 for an unknown one
+  const auto write_some = [file = std::move(file), begin = span.offset](std::size_t done, std::size_t left,
+                                                                        httplib::DataSink& sink) {
+    std::array<char, kPieceBytes> piece;
+    const std::size_t got = file->read_at(begin + done, piece.data(), std::min(left, kPieceBytes));
+    return got > 0 && sink.write(piece.data(), got);  // none: the file has become shorter
   };
-
-  std::shared_ptr<OpenFile> file_;
-  std::vector<Segment> segments_;
-  std::size_t current_ = 0;
-  std::vector<char> piece_;
-};
-
-std::string content_range(const ByteSpan& range, std::uint64_t size) {
-  return fmt::format("bytes {}-{}/{}", range.offset, range.offset + range.size - 1, size);
-}
-
-void set_body(SegmentedBody body, const std::string& type, httplib::Response& response) {
-  // httplib would apply the request's ranges to a body whose length it knows, unchecked.
-  response.set_header("Content-Length", std::to_string(body.size()));
-  const auto shared = std::make_shared<SegmentedBody>(std::move(body));
-  response.set_content_provider(
-      type, [shared](std::size_t, httplib::DataSink& sink) { return shared->write_some(sink); });
-}
-
-void respond_with_ranges(std::shared_ptr<OpenFile> file, const std::vector<ByteSpan>& ranges,
-                         const std::string& type, httplib::Response& response) {
-  const std::uint64_t size = file->size();
-  SegmentedBody body(std::move(file));
-  if (ranges.size() == 1) {
-    response.set_header("Content-Range", content_range(ranges[0], size));
-    body.add(ranges[0]);
-    set_body(std::move(body), type, response);
-    return;
-  }
-  // A boundary need not be secret: receivers go by Content-Range.
-  constexpr const char* kBoundary = "tvg_range_boundary_5f0c3a91";
-  for (const ByteSpan& range : ranges) {
-    body.add(fmt::format("\r\n--{}\r\nContent-Type: {}\r\nContent-Range: {}\r\n\r\n", kBoundary, type,
-                         content_range(range, size)));
-    body.add(range);
-  }
-  body.add(fmt::format("\r\n--{}--\r\n", kBoundary));
-  set_body(std::move(body), fmt::format("multipart/byteranges; boundary={}", kBoundary), response);
+  response.set_content_provider(span.size, type, write_some);
 }
 
 }  // namespace
@@ -233,37 +167,22 @@ std::string content_type_of(const fs::path& file) {
   return "application/octet-stream";
 }
 
-RangeChoice choose_ranges(const std::string& header, std::uint64_t size) {
+RangeChoice choose_range(std::string_view header, std::uint64_t size) {
   constexpr std::string_view kUnit = "bytes=";
-  std::string_view list = header;
-  if (!list.starts_with(kUnit)) return {};
-  list.remove_prefix(kUnit.size());
-  std::vector<ByteSpan> ranges;
-  std::size_t count = 0;
-  std::uint64_t total = 0;
-  while (!list.empty()) {
-    const std::string_view range = next_element(list);
-    const std::size_t dash = range.find('-');
-    if (dash == std::string_view::npos || ++count > kMostRanges) return {};
-    std::uint64_t first = 0;
-    std::uint64_t last = size;  // beyond the end: to the end
-    const bool has_first = dash > 0;
-    const bool has_last = dash + 1 < range.size();
-    if (!has_first && !has_last) return {};
-    if (has_first && !parse_number(range.substr(0, dash), first)) return {};
-    if (has_last && !parse_number(range.substr(dash + 1), last)) return {};
-    if (has_first && first > last && has_last) return {};
-    if (!has_first) {
-      first = size - std::min(last, size);
-      last = size;
-    }
-    if (first >= size) continue;
-    ranges.push_back({first, std::min(last, size - 1) - first + 1});
-    total += ranges.back().size;
-  }
-  if (ranges.empty()) return {count > 0, {}};
-  if (total > size) return {};
-  return {false, std::move(ranges)};
+  if (!header.starts_with(kUnit)) return {};
+  const std::string_view range = trimmed(header.substr(kUnit.size()));
+  const std::size_t dash = range.find('-');
+  if (dash == std::string_view::npos || range.size() == 1) return {};
+  std::uint64_t first = 0;
+  std::uint64_t last = size;  // beyond the end: to the end
+  const bool has_first = dash > 0;
+  const bool has_last = dash + 1 < range.size();
+  if (has_first && !parse_number(range.substr(0, dash), first)) return {};
+  if (has_last && !parse_number(range.substr(dash + 1), last)) return {};
+  if (has_first && has_last && first > last) return {};
+  if (!has_first) first = size - std::min(std::exchange(last, size), size);
+  if (first >= size) return {true, std::nullopt};
+  return {false, ByteSpan{first, std::min(last, size - 1) - first + 1}};
 }
 
 void respond_with_file(const fs::path& path, const httplib::Request& request, httplib::Response& response) {
@@ -279,24 +198,23 @@ void respond_with_file(const fs::path& path, const httplib::Request& request, ht
     response.status = 304;
     return;
   }
-  const std::string type = content_type_of(path);
+  ByteSpan span{0, file->size()};
+  response.status = 200;
   if (range_is_wanted(request, *file)) {
-    const RangeChoice choice = choose_ranges(request.get_header_value("Range"), file->size());
+    const RangeChoice choice = choose_range(request.get_header_value(kRangeHeader), file->size());
     if (choice.unsatisfiable) {
       response.status = 416;
       response.set_header("Content-Range", fmt::format("bytes */{}", file->size()));
       return;
     }
-    if (!choice.ranges.empty()) {
+    if (choice.range) {
+      span = *choice.range;
       response.status = 206;
-      respond_with_ranges(std::move(file), choice.ranges, type, response);
-      return;
+      response.set_header("Content-Range", fmt::format("bytes {}-{}/{}", span.offset,
+                                                       span.offset + span.size - 1, file->size()));
     }
   }
-  response.status = 200;
-  SegmentedBody body(file);
-  body.add(ByteSpan{0, file->size()});
-  set_body(std::move(body), type, response);
+  set_body(std::move(file), span, content_type_of(path), response);
 }
 
 }  // namespace tvg::cli

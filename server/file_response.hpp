@@ -4,7 +4,7 @@
 #include <httplib.h>
 #include <optional>
 #include <string>
-#include <vector>
+#include <string_view>
 
 // Files of a folder over HTTP, with ranges and validators as RFC 9110 has them.
 namespace tvg::cli {
@@ -24,12 +24,12 @@ struct ByteSpan {
   std::uint64_t size = 0;
 };
 struct RangeChoice {
-  bool unsatisfiable = false;    ///< answer 416
-  std::vector<ByteSpan> ranges;  ///< answer 206 with these; none: 200 with the whole
+  bool unsatisfiable = false;     ///< answer 416
+  std::optional<ByteSpan> range;  ///< answer 206 with it; none: 200 with the whole
 };
-/// What a Range header asks of a file of `size` bytes. A header that is no list of byte ranges, has more than
-/// 16, or asks for more bytes together than there are, is passed over, as the RFC allows.
-RangeChoice choose_ranges(const std::string& header, std::uint64_t size);
+/// What a Range header asks of a file of `size` bytes. A header in another unit than bytes, one that is not
+/// understood and one with several ranges is passed over, as RFC 9110 allows: the whole has them all.
+RangeChoice choose_range(std::string_view header, std::uint64_t size);
 
 /// Answers GET or HEAD for a file: 200, 206, 304, 416; 404 where it cannot be read. It is read while it is
 /// sent.

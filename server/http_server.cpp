@@ -1,44 +1,57 @@
 #include "server/http_server.hpp"
 
 #include "server/connection.hpp"
+#include "server/request_head.hpp"
 
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <string_view>
 #include <sys/socket.h>
+#include <utility>
 
 namespace tvg::cli {
 
 namespace {
 
-constexpr std::size_t kSpareThreads = 8;  // answer 503 while all clients' threads are taken
 constexpr int kRequestsPerConnection = 100;
 constexpr std::chrono::milliseconds kKeepAlive{5000};
+constexpr std::chrono::milliseconds kKeepAliveInCrowd{1000};
+constexpr std::chrono::milliseconds kLook{200};  // between looks at whether it has become crowded
 
-constexpr std::string_view kTooManyClients =
-    "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nConnection: close\r\n"
-    "Access-Control-Allow-Origin: *\r\nContent-Type: text/plain\r\nContent-Length: 41\r\n\r\n"
-    "too many clients at once: try again soon\n";
-
-/// Counts for as long as it lives.
-class Counted {
+/// Runs what httplib gives it at once, on the thread that accepts: whether there is a place is settled there.
+class AtTheDoor final : public httplib::TaskQueue {
  public:
-  explicit Counted(std::atomic<std::size_t>& count) : count_(count), number_(++count) {}
-  ~Counted() { --count_; }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
+  explicit AtTheDoor(std::shared_ptr<httplib::ThreadPool> threads) : threads_(std::move(threads)) {}
 
-  std::size_t number() const { return number_; }
+  void enqueue(std::function<void()> task) override { task(); }
+  void shutdown() override { threads_->shutdown(); }
 
  private:
-  std::atomic<std::size_t>& count_;
-  std::size_t number_;
+  std::shared_ptr<httplib::ThreadPool> threads_;
 };
 
-/// What httplib should not see or do.
-void prepare(httplib::Request& request) {
-  request.headers.erase("Accept-Encoding");  // streams are compressed already
-  request.ranges.clear();                    // it would cut error texts too; file_response.hpp has its own
+/// A whole answer for those who do not get as far as a route.
+std::string plain_answer(std::string_view status, std::string_view text) {
+  return fmt::format(
+      "HTTP/1.1 {}\r\n{}Connection: close\r\nAccess-Control-Allow-Origin: *\r\n"
+      "Content-Type: text/plain; charset=utf-8\r\nContent-Length: {}\r\n\r\n{}",
+      status, status.starts_with("503") ? "Retry-After: 5\r\n" : "", text.size(), text);
+}
+
+std::string refusal_answer(int status) {
+  switch (status) {
+    case 408:
+      return plain_answer("408 Request Timeout", "the request did not come in time\n");
+    case 411:
+      return plain_answer("411 Length Required", "an upload says its length or comes in chunks\n");
+    case 431:
+      return plain_answer("431 Request Header Fields Too Large", "the request's head is too long\n");
+    case 501:
+      return plain_answer("501 Not Implemented", "the only transfer coding known here is chunked\n");
+    default:
+      return plain_answer("400 Bad Request", "the request is not understood\n");
+  }
 }
 
 bool has_body(const httplib::Request& request) {
@@ -46,11 +59,30 @@ bool has_body(const httplib::Request& request) {
          request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
 }
 
+/// The head of the next request, or the status to refuse it with; -1 where there is nobody to answer.
+int take_head(Connection& connection, std::string& head) {
+  switch (connection.take_head(head)) {
+    case Connection::Head::kWhole:
+      return refusal_of_head(head);
+    case Connection::Head::kTooLong:
+      return 431;
+    case Connection::Head::kTooSlow:
+      return 408;
+    case Connection::Head::kCut:
+      break;
+  }
+  return -1;
+}
+
 }  // namespace
 
-HttpServer::HttpServer(std::size_t max_clients, std::chrono::milliseconds timeout)
-    : max_clients_(max_clients), timeout_(timeout) {
-  new_task_queue = [max_clients] { return new httplib::ThreadPool(max_clients + kSpareThreads); };
+HttpServer::HttpServer(std::size_t max_clients, std::size_t max_per_address,
+                       std::chrono::milliseconds timeout)
+    : timeout_(timeout), admission_(max_clients, max_per_address) {
+  new_task_queue = [this, max_clients] {
+    threads_ = std::make_shared<httplib::ThreadPool>(max_clients);
+    return new AtTheDoor(threads_);
+  };
   set_keep_alive_max_count(kRequestsPerConnection);  // what answers promise
   set_keep_alive_timeout(kKeepAlive.count() / 1000);
   set_socket_options([](socket_t socket) {
@@ -66,31 +98,62 @@ void HttpServer::widen_backlog() {
 }
 
 bool HttpServer::process_and_close_socket(socket_t socket) {
+  std::shared_ptr<Admission::Place> place = admission_.enter(address_of_peer(socket));
+  if (place != nullptr) {
+    threads_->enqueue([this, socket, place = std::move(place)]() mutable {
+      serve(socket);
+      place.reset();
+    });
+    return true;
+  }
+  static const std::string answer = plain_answer(
+      "503 Service Unavailable", "too many clients at once, or too many from there: try again soon\n");
+  // It fits an empty send buffer, and nothing is waited for.
+  ::send(socket, answer.data(), answer.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  farewell_.take(socket);
+  return false;
+}
+
+void HttpServer::serve(socket_t socket) {
   Connection connection(socket, timeout_, stopping_);
-  const Counted client(clients_);
-  if (client.number() > max_clients_) {
-    connection.write(kTooManyClients.data(), kTooManyClients.size());
-    connection.close_gently();
-    return false;
+  for (int left = kRequestsPerConnection; left > 0 && await_request(connection); --left) {
+    if (!answer_request(connection, left == 1) || stopping_) break;
   }
-  bool go_on = true;
-  for (int left = kRequestsPerConnection; go_on && left > 0 && connection.begin_request(kKeepAlive); --left) {
-    bool closed_by_client = false;
-    bool body = false;
-    const bool answered =
-        process_request(connection, left == 1, closed_by_client, [&](httplib::Request& request) {
-          connection.end_head();
-          body = has_body(request);
-          prepare(request);
-          if (!body) return;
-          // A body may not have been read to its end, and must not be taken for a request.
-          request.headers.erase("Connection");
-          request.set_header("Connection", "close");
-        });
-    go_on = answered && !closed_by_client && !body && !stopping_;
+  farewell_.take(connection.release());
+}
+
+/// Waits for a request's first byte, and less long where others find no place.
+bool HttpServer::await_request(Connection& connection) const {
+  std::chrono::milliseconds waited{0};
+  while (waited < (admission_.crowded() ? kKeepAliveInCrowd : kKeepAlive)) {
+    const Connection::Await come = connection.await_request(kLook);
+    if (come != Connection::Await::kNothingYet) return come == Connection::Await::kThere;
+    waited += kLook;
   }
-  connection.close_gently();
-  return true;
+  return false;
+}
+
+/// False where no further request may follow on the connection.
+bool HttpServer::answer_request(Connection& connection, bool last) {
+  std::string head;
+  const int refusal = take_head(connection, head);
+  if (refusal > 0) {
+    const std::string answer = refusal_answer(refusal);
+    connection.write(answer.data(), answer.size());
+  }
+  if (refusal != 0) return false;
+  connection.put_back(head_for_routes(head));
+  bool closed_by_client = false;
+  bool body = false;
+  const bool answered = process_request(connection, last, closed_by_client, [&](httplib::Request& request) {
+    body = has_body(request);
+    request.headers.erase("Accept-Encoding");  // streams are compressed already
+    if (!body) return;
+    // A body may not have been read to its end, and must not be taken for a request.
+    request.headers.erase("Connection");
+    request.set_header("Connection", "close");
+  });
+  return answered && !closed_by_client && !body;
 }
 
 }  // namespace tvg::cli

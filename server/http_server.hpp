@@ -1,16 +1,24 @@
 #pragma once
+#include "server/admission.hpp"
+#include "server/farewell.hpp"
+
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <httplib.h>
+#include <memory>
+#include <string>
 
 namespace tvg::cli {
 
-/// httplib's server with this tool's limits on connections: their number, the time and bytes a head may take,
-/// and no body but where a handler reads it.
+class Connection;
+
+/// httplib's server with this tool's limits on connections: their number, altogether and from one address,
+/// the time and bytes a head may take, what a head may say, and no body but where a handler reads it. Who
+/// finds no place is told so at once, by the thread that accepts.
 class HttpServer final : public httplib::Server {
  public:
-  HttpServer(std::size_t max_clients, std::chrono::milliseconds timeout);
+  HttpServer(std::size_t max_clients, std::size_t max_per_address, std::chrono::milliseconds timeout);
 
   /// Makes room for many viewers that come at the same moment; after binding.
   void widen_backlog();
@@ -20,10 +28,14 @@ class HttpServer final : public httplib::Server {
 
  private:
   bool process_and_close_socket(socket_t socket) override;
+  void serve(socket_t socket);
+  bool await_request(Connection& connection) const;
+  bool answer_request(Connection& connection, bool last);
 
-  const std::size_t max_clients_;
   const std::chrono::milliseconds timeout_;
-  std::atomic<std::size_t> clients_{0};
+  Admission admission_;
+  Farewell farewell_;
+  std::shared_ptr<httplib::ThreadPool> threads_;  ///< one for each place, while it listens
   std::atomic<bool> stopping_{false};
 };
 

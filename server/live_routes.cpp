@@ -82,7 +82,7 @@ std::optional<std::string> LiveRoutes::name_of(const std::string& path) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            (c != '\0' && std::strchr("._-", c) != nullptr);
   });
-  if (!valid || name.empty() || name.size() > kLongestName) return std::nullopt;
+  if (!valid || name.empty() || name.starts_with('.') || name.size() > kLongestName) return std::nullopt;
   return name;
 }
 

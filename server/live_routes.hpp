@@ -18,7 +18,7 @@ class LiveRoutes {
              std::chrono::milliseconds timeout, std::function<void(const std::string&)> log)
       : server_(server), hub_(max_streams, limits), timeout_(timeout), log_(std::move(log)) {}
 
-  /// NAME where the path is /live/NAME with 1 to 64 of A-Z a-z 0-9 . _ -
+  /// NAME where the path is /live/NAME with 1 to 64 of A-Z a-z 0-9 . _ -, the first no dot
   static std::optional<std::string> name_of(const std::string& path);
 
   /// Whether an upload must be refused before its body is read; the answer is then set.

@@ -68,7 +68,7 @@ class StreamServer::Implementation {
   explicit Implementation(ServerOptions options)
       : options_(std::move(options)),
         root_(canonical_folder(options_.folder)),
-        http_(options_.max_clients, options_.timeout),
+        http_(options_.max_clients, options_.max_per_address, options_.timeout),
         live_(http_, options_.max_live_streams, relay_limits(options_), options_.timeout, options_.log) {
     add_routes();
     errno = 0;
@@ -136,10 +136,9 @@ class StreamServer::Implementation {
     };
     http_.Put("/live/.*", publish);
     http_.Post("/live/.*", publish);
-    http_.set_error_handler(httplib::Server::HandlerWithResponse(
-        [](const httplib::Request& request, httplib::Response& response) {
-          if (!response.body.empty() || !request.ranges.empty() || response.status < 400)
-            return Answer::Handled;
+    http_.set_error_handler(
+        httplib::Server::HandlerWithResponse([](const httplib::Request&, httplib::Response& response) {
+          if (!response.body.empty() || response.status < 400) return Answer::Handled;
           response.set_content(text_of(response.status), "text/plain; charset=utf-8");
           return Answer::Handled;
         }));

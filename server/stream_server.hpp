@@ -12,7 +12,9 @@ struct ServerOptions {
   std::string address = "127.0.0.1";
   int port = 8080;               ///< 0: the system picks one
   std::size_t max_clients = 64;  ///< connections at a time, 1 to kMostClients; the next gets 503
-  bool live = true;              ///< whether /live/ takes and gives streams
+  /// Of these, connections from one address; the next gets 503. A reverse proxy is one address.
+  std::size_t max_per_address = 32;
+  bool live = true;  ///< whether /live/ takes and gives streams
   std::size_t max_live_streams = 8;
   std::uint64_t max_chunk_bytes = std::uint64_t{64} << 20;  ///< of any chunk of a live stream
   /// How long a client may take over a request's head, over the next byte of an upload, and over taking a

@@ -1,16 +1,19 @@
 #pragma once
+#include "player/playback/bell.hpp"
 #include "player/playback/player_frame.hpp"
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 namespace tvg::cli {
 
-/// Frames that are used again and again, so that playing allocates nothing. Used by one thread; what it gave
-/// out may be released by any.
+/// Frames that are used again and again, so that playing allocates next to nothing. Used by one thread; what
+/// it gave out may be released by any, also after the pool has gone.
 class FramePool {
  public:
+  /// `bell` is rung when a frame that was given out is free again.
+  explicit FramePool(std::shared_ptr<Bell> bell);
+
   /// Gives out at most `limit` frames at a time.
   void set_limit(std::size_t limit) { limit_ = limit; }
   /// Whether take() would succeed.
@@ -20,10 +23,13 @@ class FramePool {
   /// Gives back the memory of frames that nobody holds.
   void drop_free();
   /// Frames made and kept, in use or not.
-  std::size_t size() const { return frames_.size(); }
+  std::size_t size() const { return made_; }
 
  private:
-  std::vector<std::shared_ptr<PlayerFrame>> frames_;
+  class Shelf;
+
+  std::shared_ptr<Shelf> shelf_;
+  std::size_t made_ = 0;
   std::size_t limit_ = 4;
 };
 

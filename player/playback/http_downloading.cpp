@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <new>
 #include <utility>
 
 // The thread that fetches.
@@ -37,23 +38,34 @@ bool worth_retrying(CURLcode code) {
 }  // namespace
 
 void HttpInput::run() {
-  for (;;) {
-    std::chrono::milliseconds wait{};
-    bool go_on = false;
-    {
+  for (bool ended = false; !ended;) {
+    try {
+      ended = !work();
+    } catch (const std::bad_alloc&) {
       const std::lock_guard lock(mutex_);
-      if (cancelled_) return;
-      check_stalls();
-      go_on = plan();
-      begin_aside();
-      wait = time_to_wait();
+      give_up("there is not enough memory", true);
     }
-    if (go_on) main_->resume();  // not under the lock: it may bring bytes at once
-    int running = 0;
-    curl_multi_perform(multi_, &running);
-    finish_transfers();
-    curl_multi_poll(multi_, nullptr, 0, static_cast<int>(wait.count()), nullptr);
   }
+}
+
+/// One look at what there is to fetch, and a wait for what comes of it; false after cancel().
+bool HttpInput::work() {
+  std::chrono::milliseconds wait{};
+  bool go_on = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (cancelled_) return false;
+    check_stalls();
+    go_on = plan();
+    begin_aside();
+    wait = time_to_wait();
+  }
+  if (go_on) main_->resume();  // not under the lock: it may bring bytes at once
+  int running = 0;
+  curl_multi_perform(multi_, &running);
+  finish_transfers();
+  curl_multi_poll(multi_, nullptr, 0, static_cast<int>(wait.count()), nullptr);
+  return true;
 }
 
 std::chrono::milliseconds HttpInput::time_to_wait() const {

@@ -61,6 +61,7 @@ class HttpInput final : public StreamInput {
 
   // Of the worker thread; those that plan and take bytes hold the lock.
   void run();
+  bool work();
   bool plan();
   void begin_transfer(std::uint64_t hole);
   bool on_the_way(std::uint64_t hole) const;

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <fmt/format.h>
+#include <new>
 #include <utility>
 
 namespace tvg::cli {
@@ -96,13 +97,19 @@ void HttpTransfer::resume() {
 }
 
 std::string HttpTransfer::failure(CURLcode code) const {
+  if (out_of_memory_) return "there is not enough memory";
   return error_[0] != '\0' ? error_ : curl_easy_strerror(code);
 }
 
 std::size_t HttpTransfer::on_header(char* data, std::size_t size, std::size_t count, void* self) {
   auto& transfer = *static_cast<HttpTransfer*>(self);
   transfer.last_sign_ = Clock::now();
-  transfer.head_.read_line({data, size * count});
+  try {
+    transfer.head_.read_line({data, size * count});
+  } catch (const std::bad_alloc&) {  // nothing may be thrown through curl
+    transfer.out_of_memory_ = true;
+    return 0;
+  }
   return size * count;
 }
 
@@ -110,7 +117,13 @@ std::size_t HttpTransfer::on_body(char* data, std::size_t size, std::size_t coun
   auto& transfer = *static_cast<HttpTransfer*>(self);
   transfer.last_sign_ = Clock::now();
   const std::size_t bytes = size * count;
-  switch (transfer.take_(transfer.head_, {reinterpret_cast<const std::uint8_t*>(data), bytes})) {
+  Verdict verdict = Verdict::kStop;
+  try {
+    verdict = transfer.take_(transfer.head_, {reinterpret_cast<const std::uint8_t*>(data), bytes});
+  } catch (const std::bad_alloc&) {
+    transfer.out_of_memory_ = true;
+  }
+  switch (verdict) {
     case Verdict::kTake:
       return bytes;
     case Verdict::kPause:

@@ -72,6 +72,7 @@ class HttpTransfer {
   std::function<Verdict(const HttpHead&, std::span<const std::uint8_t>)> take_;
   HttpHead head_;
   bool paused_ = false;
+  bool out_of_memory_ = false;
   Clock::time_point last_sign_;
   char error_[CURL_ERROR_SIZE] = {};
 };

@@ -8,7 +8,7 @@ namespace tvg::cli {
 
 /// Bytes that come once, front to back: a pipe, a terminal, a socket. What has come is kept, so that one can
 /// go back, up to a limit beyond which the oldest bytes are dropped.
-class PipeInput final : public StreamInput {
+class PipeInput : public StreamInput {
  public:
   static constexpr std::uint64_t kDefaultLimit = std::uint64_t{256} << 20;
 

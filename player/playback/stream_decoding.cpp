@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <new>
 #include <utility>
 
 #include <tvg/normals.hpp>
@@ -24,50 +26,67 @@ constexpr std::size_t kFramesOutside = 4;
 }  // namespace
 
 void StreamLoader::run() {
-  go_to(0);
+  bool begun = false;
   for (;;) {
-    switch (wait_for_work()) {
-      case Work::kStop:
-        return;
-      case Work::kRequest: {
-        Request request;
-        {
-          const std::lock_guard lock(mutex_);
-          request = *std::exchange(request_, std::nullopt);
-          input_->resume();
-        }
-        begin_request(request);
-        break;
-      }
-      case Work::kLoop:
-        begin_round(next_frame_);
-        break;
-      case Work::kDecode:
-        take_index();
-        advance();
-        break;
+    const std::uint32_t strokes = work_->strokes();
+    bool idle = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (stopped_) return;
+      idle = begun && find_work() == Work::kNone;
+    }
+    if (idle) {
+      work_->wait_beyond(strokes);
+      continue;
+    }
+    try {
+      if (!std::exchange(begun, true)) go_to(0);
+      go_on();
+    } catch (const std::bad_alloc&) {
+      pool_.drop_free();
+      fail(Error{ErrorCode::kOutOfMemory, "there is not enough memory to decode it", {}, {}, ""});
+    } catch (const std::exception& problem) {
+      fail(Error{ErrorCode::kIo, problem.what(), {}, {}, ""});
     }
   }
 }
 
-StreamLoader::Work StreamLoader::wait_for_work() {
-  std::unique_lock lock(mutex_);
-  for (;;) {
-    if (stopped_) return Work::kStop;
-    if (request_) return Work::kRequest;
-    const bool room = ring_.has_room();
-    const bool slot = pool_.has_free();
-    if (room && slot && active_) return Work::kDecode;
-    if (room && slot && loop_ && state_.state == LoaderSnapshot::State::kEnded && pushed_in_round_ &&
-        !began_anew_ && input_->reaches(0)) {
-      return Work::kLoop;
-    }
-    if (room && !slot) {  // nobody tells when a frame is let go
-      work_.wait_for(lock, std::chrono::milliseconds(5));
-    } else {
-      work_.wait(lock);
+/// Does the next of what there is to do.
+void StreamLoader::go_on() {
+  std::optional<Request> request;
+  Work work = Work::kNone;
+  {
+    const std::lock_guard lock(mutex_);
+    work = find_work();
+    if (work == Work::kRequest) {
+      request = std::exchange(request_, std::nullopt);
+      input_->resume();
     }
   }
+  switch (work) {
+    case Work::kNone:
+      break;
+    case Work::kRequest:
+      begin_request(*request);
+      break;
+    case Work::kLoop:
+      begin_round(next_frame_);
+      break;
+    case Work::kDecode:
+      take_index();
+      advance();
+      break;
+  }
+}
+
+/// Called with the lock held.
+StreamLoader::Work StreamLoader::find_work() const {
+  if (request_) return Work::kRequest;
+  if (!ring_.has_room() || !pool_.has_free()) return Work::kNone;
+  if (active_) return Work::kDecode;
+  const bool again = loop_ && state_.state == LoaderSnapshot::State::kEnded && pushed_in_round_ &&
+                     !began_anew_ && input_->reaches(0);
+  return again ? Work::kLoop : Work::kNone;
 }
 
 void StreamLoader::take_index() {
@@ -100,11 +119,16 @@ void StreamLoader::begin_request(const Request& request) {
 /// A frame that has not been met yet is reached by the index, if there is one, rather than by reading on.
 void StreamLoader::wait_for_index(std::uint64_t frame) {
   if (!has_head_) return;
-  std::unique_lock lock(mutex_);
-  wants_index_ = true;
-  index_.notify_all();
-  if (frame < facts_.known_end()) return;
-  work_.wait(lock, [this] { return index_done_ || stopped_ || request_; });
+  for (;;) {
+    const std::uint32_t strokes = work_->strokes();
+    {
+      const std::lock_guard lock(mutex_);
+      wants_index_ = true;
+      index_.notify_all();
+      if (frame < facts_.known_end() || index_done_ || stopped_ || request_) return;
+    }
+    work_->wait_beyond(strokes);
+  }
 }
 
 void StreamLoader::go_to(std::uint64_t frame) {

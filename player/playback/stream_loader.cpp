@@ -1,7 +1,7 @@
 #include "player/playback/stream_loader.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <exception>
 #include <utility>
 
 // What other threads ask of the loader, and the thread that fetches the index. stream_decoding.cpp has the
@@ -26,7 +26,7 @@ StreamLoader::~StreamLoader() {
     stopped_ = true;
   }
   input_->cancel();
-  work_.notify_all();
+  work_->ring();
   index_.notify_all();
   thread_.join();
   index_thread_.join();
@@ -35,7 +35,7 @@ StreamLoader::~StreamLoader() {
 std::shared_ptr<const PlayerFrame> StreamLoader::show(std::uint64_t number) {
   const std::lock_guard lock(mutex_);
   std::shared_ptr<const PlayerFrame> frame = ring_.show(number);
-  if (frame) work_.notify_all();
+  if (frame) work_->ring();
   return frame;
 }
 
@@ -59,13 +59,13 @@ void StreamLoader::request(const Request& request) {
   state_.state = opened_ ? LoaderSnapshot::State::kReady : LoaderSnapshot::State::kOpening;
   state_.message.clear();
   input_->interrupt();
-  work_.notify_all();
+  work_->ring();
 }
 
 void StreamLoader::set_loop(std::optional<LoopRange> loop) {
   const std::lock_guard lock(mutex_);
   loop_ = loop;
-  work_.notify_all();
+  work_->ring();
 }
 
 void StreamLoader::set_decorator(std::shared_ptr<FrameDecorator> decorator, std::uint64_t number) {
@@ -117,15 +117,22 @@ void StreamLoader::load_index() {
     index_.wait(lock, [this] { return wants_index_ || stopped_; });
     if (stopped_) return;
   }
+  try {
+    find_index();
+  } catch (const std::exception&) {  // no memory for it: everything is found by reading on
+  }
+  const std::lock_guard lock(mutex_);
+  index_done_ = true;
+  work_->ring();
+}
+
+void StreamLoader::find_index() {
   std::uint64_t end = 0;
   std::optional<std::vector<IndexEntry>> entries = fetch_index(end);
+  if (!entries) return;
   const std::lock_guard lock(mutex_);
-  if (entries) {
-    facts_.use_index(*entries, end);
-    new_index_ = std::move(entries);
-  }
-  index_done_ = true;
-  work_.notify_all();
+  facts_.use_index(*entries, end);
+  new_index_ = std::move(entries);
 }
 
 /// The stream's index, where it has one; `end` is its offset. Without one everything is found by reading on.

@@ -1,4 +1,5 @@
 #pragma once
+#include "player/playback/bell.hpp"
 #include "player/playback/frame_pool.hpp"
 #include "player/playback/frame_ring.hpp"
 #include "player/playback/stream_facts.hpp"
@@ -108,8 +109,9 @@ class StreamLoader {
 
   // Decoding thread.
   void run();
-  enum class Work { kStop, kRequest, kLoop, kDecode };
-  Work wait_for_work();
+  void go_on();
+  enum class Work { kNone, kRequest, kLoop, kDecode };
+  Work find_work() const;
   void take_index();
   void begin_request(const Request& request);
   void wait_for_index(std::uint64_t frame);
@@ -130,14 +132,15 @@ class StreamLoader {
 
   // Index thread.
   void load_index();
+  void find_index();
   std::optional<std::vector<IndexEntry>> fetch_index(std::uint64_t& end);
 
   const LoaderOptions options_;
   const std::unique_ptr<StreamInput> input_;
 
   mutable std::mutex mutex_;
-  std::condition_variable work_;   ///< for the decoding thread
-  std::condition_variable index_;  ///< for the index thread
+  const std::shared_ptr<Bell> work_ = std::make_shared<Bell>();  ///< for the decoding thread
+  std::condition_variable index_;                                ///< for the index thread
   FrameRing ring_;
   StreamFacts facts_;
   LoaderSnapshot state_;  ///< what of the snapshot is kept ready
@@ -153,7 +156,7 @@ class StreamLoader {
   bool stopped_ = false;
 
   // Of the decoding thread alone.
-  FramePool pool_;
+  FramePool pool_{work_};
   std::unique_ptr<Decoder> decoder_;
   std::vector<std::uint8_t> piece_;
   std::vector<IndexEntry> entries_;  ///< the index, for a decoder that begins anew

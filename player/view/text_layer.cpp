@@ -1,20 +1,25 @@
 #include "player/view/text_layer.hpp"
 
+#include "player/view/find_font.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <backends/imgui_impl_opengl3.h>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <imgui.h>
 #include <system_error>
+#include <vector>
 
 namespace tvg::cli {
 
 namespace {
 
-constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr ImU32 kInk = IM_COL32(38, 42, 52, 255);
 constexpr ImU32 kFaintInk = IM_COL32(38, 42, 52, 170);
 constexpr ImU32 kPlate = IM_COL32(255, 255, 255, 165);
@@ -66,16 +71,36 @@ void draw_swatch(ImDrawList& list, float x, float y, float size, const Colour& c
   put(list, 0.85F * size, x + 1.4F * size, y + 0.12F * size, kInk, text);
 }
 
+/// The font's bytes; nothing where they are none that ImGui can read, which would end the process over them.
+std::vector<char> read_font(const std::string& path) {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
+  std::error_code error;
+  const std::uintmax_t size = path.empty() ? 0 : std::filesystem::file_size(path, error);
+  if (error || size < 12 || size > kMostBytes) return {};
+  std::vector<char> bytes(static_cast<std::size_t>(size));
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) return {};
+  constexpr std::array<char, 4> kTrueType = {0, 1, 0, 0};
+  constexpr std::array<char, 4> kApple = {'t', 'r', 'u', 'e'};
+  const auto begins = [&](const std::array<char, 4>& mark) {
+    return std::equal(mark.begin(), mark.end(), bytes.begin());
+  };
+  return begins(kTrueType) || begins(kApple) ? bytes : std::vector<char>();
+}
+
 }  // namespace
 
 void load_font(float size) {
   ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
-  std::error_code none;
-  if (std::filesystem::is_regular_file(kFont, none)) {
-    fonts.AddFontFromFileTTF(kFont, size);
-  } else {
+  const std::vector<char> file = read_font(find_font());
+  if (file.empty()) {
     fonts.AddFontDefault();
+    return;
   }
+  // ImGui frees what it is given with its own allocator.
+  void* const owned = ImGui::MemAlloc(file.size());
+  std::memcpy(owned, file.data(), file.size());
+  fonts.AddFontFromMemoryTTF(owned, static_cast<int>(file.size()), size);
 }
 
 float text_size(int picture_height) {

@@ -27,7 +27,8 @@ struct TextPlace {
   float size = 16;
 };
 
-/// Gives the present ImGui its font, whose letters look best at `size` pixels.
+/// Gives the present ImGui a font of this system, or its own where there is none, whose letters look best at
+/// `size` pixels.
 void load_font(float size);
 
 /// Height of letters that suit a picture of this many pixels in height.

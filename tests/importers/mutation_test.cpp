@@ -4,7 +4,6 @@
 #include "encoder/importers/open_source.hpp"
 #include "tests/importers/sample_files.hpp"
 
-#include <chrono>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -57,7 +56,6 @@ void expect_sound(const MeshFile& mesh) {
 
 void expect_survives_mutations(Parser parser, const std::string& bytes) {
   std::mt19937 random(1);
-  const auto start = std::chrono::steady_clock::now();
   for (int round = 0; round < 4000; ++round) {
     const std::string text = mutated(bytes, random);
     const std::vector<char> exact(text.begin(), text.end());
@@ -69,7 +67,6 @@ void expect_survives_mutations(Parser parser, const std::string& bytes) {
       continue;
     }
   }
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
 TEST(Mutation, ObjNeverCrashesAndNeverYieldsAnUnsoundMesh) {

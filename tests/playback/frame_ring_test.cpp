@@ -79,7 +79,7 @@ TEST(FrameRing, ALoopGoesOnWithItsFirstFrame) {
 }
 
 TEST(FramePool, UsesAFrameAgainOnceNobodyHoldsIt) {
-  FramePool pool;
+  FramePool pool{std::make_shared<Bell>()};
   pool.set_limit(2);
   std::shared_ptr<const PlayerFrame> first = pool.take();
   const std::shared_ptr<const PlayerFrame> second = pool.take();

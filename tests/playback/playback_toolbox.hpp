@@ -44,7 +44,7 @@ class TemporaryFile {
 
 /// Whether `condition` comes true within a time that only a hang exceeds.
 template <class Condition>
-bool eventually(const Condition& condition, std::chrono::seconds bound = std::chrono::seconds(10)) {
+bool eventually(const Condition& condition, std::chrono::seconds bound = std::chrono::seconds(60)) {
   const auto end = std::chrono::steady_clock::now() + bound;
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;

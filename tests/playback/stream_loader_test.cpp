@@ -5,10 +5,12 @@
 #include "player/playback/pipe_input.hpp"
 #include "tool/tool_error.hpp"
 
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
+#include <new>
 #include <random>
 
 namespace tvg::test {
@@ -215,6 +217,56 @@ TEST(StreamLoader, APipeThatIsSilentDoesNotHoldUpTheEnd) {
     loader.seek(5);
   }
   ::close(ends[1]);
+}
+
+/// A stream whose reading finds no memory from the given byte on.
+class ScarceInput final : public cli::PipeInput {
+ public:
+  ScarceInput(int descriptor, std::uint64_t enough) : PipeInput("scarce", descriptor), enough_(enough) {}
+  Result<std::size_t> read(std::uint64_t offset, std::span<std::uint8_t> target) override {
+    if (offset >= enough_) throw std::bad_alloc();
+    return PipeInput::read(offset, target.first(std::min<std::size_t>(target.size(), 100)));
+  }
+
+ private:
+  std::uint64_t enough_;
+};
+
+TEST(StreamLoader, AnAllocationThatFailsIsAMessageAndWhatIsDecodedCanBeShown) {
+  const Stream stream = encoded("toy", 5);
+  const DecodedStream plain = decode_stream(stream);
+  for (const std::uint64_t enough : {std::uint64_t{0}, plain.index[2].offset}) {
+    const TemporaryFile file(stream);
+    StreamLoader loader(std::make_unique<ScarceInput>(::open(file.path().c_str(), O_RDONLY), enough));
+    ASSERT_TRUE(eventually([&] { return loader.supply().failed; }));
+    EXPECT_THAT(loader.snapshot().message, HasSubstr("not enough memory"));
+    if (enough > 0) expect_frame(loader, plain.frames[0]);
+  }
+}
+
+TEST(FramePool, TellsWhenAFrameIsLetGoAlsoAfterThePoolHasGone) {
+  const auto bell = std::make_shared<cli::Bell>();
+  std::shared_ptr<cli::PlayerFrame> kept;
+  {
+    cli::FramePool pool(bell);
+    pool.set_limit(2);
+    std::shared_ptr<cli::PlayerFrame> first = pool.take();
+    kept = pool.take();
+    ASSERT_TRUE(first && kept);
+    EXPECT_FALSE(pool.has_free());
+    EXPECT_EQ(pool.take(), nullptr);
+    const cli::PlayerFrame* const used = first.get();
+    std::shared_ptr<const cli::PlayerFrame> shown = std::move(first);
+    const std::uint32_t before = bell->strokes();
+    std::thread([&] { shown.reset(); }).join();
+    EXPECT_EQ(bell->strokes(), before + 1);
+    EXPECT_TRUE(pool.has_free());
+    EXPECT_EQ(pool.take().get(), used);
+    EXPECT_EQ(pool.size(), 2u);
+    pool.drop_free();
+    EXPECT_EQ(pool.size(), 1u);
+  }
+  kept.reset();
 }
 
 TEST(PipeInput, GoesBackAsFarAsItKeepsBytes) {

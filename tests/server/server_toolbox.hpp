@@ -3,6 +3,8 @@
 #include "tests/codec/codec_toolbox.hpp"
 #include "tests/importers/io_toolbox.hpp"
 
+#include <arpa/inet.h>
+#include <array>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -10,9 +12,12 @@
 #include <httplib.h>
 #include <memory>
 #include <mutex>
+#include <netinet/in.h>
 #include <optional>
 #include <string>
+#include <sys/socket.h>
 #include <thread>
+#include <unistd.h>
 
 namespace tvg::cli::testing {
 
@@ -32,12 +37,59 @@ class RunningServer {
   int port() const { return server_->port(); }
   httplib::Client client() const {
     httplib::Client client("127.0.0.1", server_->port());
-    client.set_read_timeout(10);
+    client.set_read_timeout(60);
     return client;
   }
 
  private:
   std::unique_ptr<StreamServer> server_;
+};
+
+/// A connection whose bytes the test gives itself.
+class RawClient {
+ public:
+  /// From `from`, an address of loopback; with a buffer of so many bytes for what it does not read.
+  explicit RawClient(int port, const char* from = "127.0.0.1", int buffer = 0) {
+    if (buffer > 0) ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &buffer, sizeof buffer);
+    sockaddr_in own = address_of(from, 0);
+    EXPECT_EQ(::bind(socket_, reinterpret_cast<sockaddr*>(&own), sizeof own), 0);
+    sockaddr_in address = address_of("127.0.0.1", port);
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    const timeval only_a_hang{60, 0};
+    ::setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &only_a_hang, sizeof only_a_hang);
+  }
+  ~RawClient() { ::close(socket_); }
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+
+  void send(const std::string& bytes) {
+    for (std::size_t sent = 0; sent < bytes.size();) {
+      const ssize_t now = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+      if (now <= 0) break;
+      sent += static_cast<std::size_t>(now);
+    }
+  }
+  /// Says that it sends nothing more.
+  void end() { ::shutdown(socket_, SHUT_WR); }
+  /// Everything up to where the server closes.
+  std::string answer() {
+    std::string answer;
+    std::array<char, 4096> piece{};
+    for (ssize_t got; (got = ::recv(socket_, piece.data(), piece.size(), 0)) > 0;)
+      answer.append(piece.data(), static_cast<std::size_t>(got));
+    return answer;
+  }
+
+ private:
+  static sockaddr_in address_of(const char* text, int port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    EXPECT_EQ(::inet_pton(AF_INET, text, &address.sin_addr), 1);
+    return address;
+  }
+
+  int socket_ = ::socket(AF_INET, SOCK_STREAM, 0);
 };
 
 /// A stream of `gops` GOPs of two frames.
@@ -70,9 +122,9 @@ inline test::DecodedStream decode_text(const std::string& bytes) {
   return test::decode_stream(test::Stream(bytes.begin(), bytes.end()));
 }
 
-/// Waits for what other threads bring about; false after ten seconds.
+/// Waits for what other threads bring about; false after a time that only a hang exceeds.
 inline bool eventually(const std::function<bool()>& condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
