@@ -1,6 +1,9 @@
 # The C interface, tvg.h: libtvg.so, which exports nothing else; libtvg.a with BUILD_SHARED_LIBS=OFF and where nothing
 # is shared; a WebAssembly module beside it with Emscripten.
 set(tvg_c_sources c_api/decoder.cpp)
+if(TVG_BUILD_ENCODER)
+  list(APPEND tvg_c_sources c_api/encoder.cpp)
+endif()
 
 get_property(tvg_can_share GLOBAL PROPERTY TARGET_SUPPORTS_SHARED_LIBS)
 if(NOT tvg_can_share)

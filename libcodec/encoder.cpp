@@ -1,19 +1,17 @@
 #include "base/errors.hpp"
 #include "connectivity/mesh_coder_encode.hpp"
-#include "container/metadata.hpp"
 #include "container/stream_writer.hpp"
+#include "encoder/encode_checks.hpp"
+#include "encoder/gop_queue.hpp"
 #include "modes/gop_encoder.hpp"
 #include "quantization/lattice_over_encode.hpp"
-#include "source/gop_reader.hpp"
+#include "source/gop_cutter.hpp"
 #include "source/source_checks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <deque>
-#include <future>
 #include <memory>
 #include <new>
 #include <string>
+#include <utility>
 
 #include <tvg/encoder.hpp>
 
@@ -21,113 +19,257 @@ namespace tvg {
 
 namespace {
 
-constexpr std::uint64_t kMaxFirstFrame = std::uint64_t{1} << 61;  // leaves room for the frames that follow
+/// What the GOPs of one mesh share, until the last of them is encoded.
+struct Stretch {
+  Stretch(const Mesh& given, const Skeleton& joints, std::shared_ptr<const EncodeOptions> encode_options)
+      : options(std::move(encode_options)),
+        mesh(given),
+        skeleton(joints),
+        encoded(encode_mesh(mesh, options->keep_vertex_order)),
+        measurer(mesh, skeleton, options->importance) {}
+  Stretch(const Stretch&) = delete;
+  Stretch& operator=(const Stretch&) = delete;
 
-Status check_options(const EncodeOptions& options) {
-  if (options.fine_bits < kMinBits || options.fine_bits > kMaxBits || options.coarse_bits < kMinBits ||
-      options.coarse_bits > options.fine_bits) {
-    return invalid_argument(
-        "bits must be 1 to 24, and those of unimportant vertices at most those of important ones");
-  }
-  if (options.step && !(std::isfinite(*options.step) && *options.step > 0)) {
-    return invalid_argument("the step must be a positive length in the mesh's units");
-  }
-  if (options.predictor > Predictor::kElp) return invalid_argument("there is no such predictor");
-  if (options.first_frame > kMaxFirstFrame)
-    return invalid_argument("the number of the first frame is too large");
-  if (options.gop_frames == 0 || options.gop_frames > (1u << 16)) {
-    return invalid_argument("a GOP must have 1 to 65536 frames");
-  }
-  return {};
-}
-
-StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
-  StreamLimits limits;
-  limits.vertices = mesh.vertex_count;
-  limits.faces = static_cast<std::uint32_t>(mesh.faces.size());
-  limits.frames_per_gop = options.gop_frames;
-  // 64 bits per coordinate: more than the worst residual can take.
-  limits.packet_bytes = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(256 + 24 * std::uint64_t{mesh.vertex_count}, kMaxChunkLength));
-  limits.decoder_memory = decoder_memory_needed(limits);
-  return limits;
-}
+  std::shared_ptr<const EncodeOptions> options;
+  Mesh mesh;
+  Skeleton skeleton;
+  EncodedMesh encoded;
+  Measurer measurer;
+};
 
 /// One GOP on its way: what is to be encoded, and what marks it.
 struct Job {
   GopContent gop;
-  const Measurer* measurer = nullptr;
+  std::shared_ptr<const Stretch> stretch;
   Lattice lattice;
+  StreamLimits limits;
 };
 
 /// Algorithm 1, then the GOP's chunk.
-Result<std::vector<std::uint8_t>> mark_and_encode(const Job& job, const CodedMesh& coded,
-                                                  const EncodeOptions& options, const StreamLimits& limits) {
+Result<GopChunk> mark_and_encode(const Job& job) {
   GopInput input{.frames = job.gop.content->frames,
                  .first_frame = job.gop.first_frame,
                  .lattice = job.lattice,
                  .flags = {},
-                 .predictor = options.predictor};
+                 .predictor = job.stretch->options->predictor};
   if (job.lattice.hybrid()) {
     const GopFrames& seen = *job.gop.marked_by;
-    Result<Measure> measured = job.measurer->measure(seen.frames, seen.joints);
+    Result<Measure> measured = job.stretch->measurer.measure(seen.frames, seen.joints);
     if (!measured) return measured.error();
     input.flags = std::move(measured->flags);
   }
-  return encode_gop(input, coded, limits);
+  return encode_gop(input, job.stretch->encoded.coded, job.limits);
 }
 
-/// GOPs on their way: encoded by up to `threads` at a time, written in order.
-class GopQueue {
- public:
-  GopQueue(StreamWriter& writer, unsigned threads, const EncodeProgress& progress,
-           std::optional<std::uint64_t> total)
-      : writer_(writer), threads_(std::max(1u, threads)), progress_(progress), total_(total) {}
+Error no_memory() {
+  return out_of_memory("there is not enough memory: use fewer frames per GOP or fewer threads");
+}
 
-  Status add(Job job, const CodedMesh& mesh, const EncodeOptions& options, const StreamLimits& limits) {
-    const auto frame_count = static_cast<std::uint32_t>(job.gop.content->frames.size());
-    const auto policy = threads_ > 1 ? std::launch::async : std::launch::deferred;
-    pending_.push_back({frame_count, std::async(policy, [job = std::move(job), &mesh, &options, &limits] {
-                          return mark_and_encode(job, mesh, options, limits);
-                        })});
-    return pending_.size() < threads_ ? Status() : write_oldest();
+}  // namespace
+
+class Encoder::State {
+ public:
+  State(EncodeOptions options, ByteSink sink, EncodeProgress progress)
+      : options_(std::make_shared<const EncodeOptions>(std::move(options))),
+        progress_(std::move(progress)),
+        writer_(std::move(sink)),
+        queue_(std::max(1u, options_->threads)),
+        with_joints_(uses_skeleton(options_->importance)) {
+    report_.box_of_each_gop = !options_->box;
   }
-  Status finish() {
-    while (!pending_.empty()) {
-      if (Status status = write_oldest(); !status.ok()) return status;
+
+  Status set_mesh(const Mesh& mesh, const Skeleton& skeleton) {
+    if (Status status = check_new_mesh(mesh, skeleton); !status.ok()) return status;
+    return lasting([&] { return begin_stretch(mesh, skeleton); });
+  }
+
+  Status add_frame(std::span<const float> positions, std::span<const float> joints) {
+    BoundingBox frame_box;
+    frame_box.extend(positions);
+    if (Status status = check_new_frame(positions, joints, frame_box); !status.ok()) return status;
+    return lasting([&] {
+      std::vector<float> kept;
+      if (with_joints_) kept.assign(joints.begin(), joints.end());
+      gop_box_.extend(frame_box.low()[0], frame_box.low()[1], frame_box.low()[2]);
+      gop_box_.extend(frame_box.high()[0], frame_box.high()[1], frame_box.high()[2]);
+      std::optional<GopContent> gop =
+          cutter_->add(FramePositions(positions.begin(), positions.end()), std::move(kept));
+      if (gop) {
+        if (Status status = enqueue(std::move(*gop)); !status.ok()) return status;
+      }
+      return write_what_is_done();
+    });
+  }
+
+  Result<EncodeReport> finish() {
+    if (Status status = check_open(); !status.ok()) return status.error();
+    if (!stretch_) return Error{ErrorCode::kWrongState, "there is no mesh yet"};
+    if (frames_added() == 0) return invalid_input("the sequence has no frames");
+    Status status = lasting([&] {
+      if (Status flushed = flush(); !flushed.ok()) return flushed;
+      return writer_.write_end();
+    });
+    if (!status.ok()) return status.error();
+    finished_ = true;
+    report_.bytes = writer_.offset();
+    return report_;
+  }
+
+ private:
+  Status check_open() const {
+    if (lost_) return *lost_;
+    if (finished_) return Error{ErrorCode::kWrongState, "the stream is finished"};
+    return {};
+  }
+
+  Status check_new_mesh(const Mesh& mesh, const Skeleton& skeleton) const {
+    if (Status status = check_open(); !status.ok()) return status;
+    if (stretch_ && cutter_->frames() == 0)
+      return Error{ErrorCode::kWrongState, "the mesh before this one has no frames"};
+    if (!stretch_) {
+      if (Status status = check_options(*options_); !status.ok()) return status;
+    }
+    if (Status status = check_mesh(mesh); !status.ok()) return status;
+    if (stretch_ && (mesh.vertex_count > limits_.vertices || mesh.faces.size() > limits_.faces)) {
+      return Error{ErrorCode::kLimitExceeded,
+                   "the mesh has " + std::to_string(mesh.vertex_count) + " vertices and " +
+                       std::to_string(mesh.faces.size()) + " faces, the head declares " +
+                       std::to_string(limits_.vertices) + " and " + std::to_string(limits_.faces)};
+    }
+    return check_importance(options_->importance, mesh, skeleton);
+  }
+
+  Status check_new_frame(std::span<const float> positions, std::span<const float> joints,
+                         const BoundingBox& frame_box) const {
+    if (Status status = check_open(); !status.ok()) return status;
+    if (!stretch_) return Error{ErrorCode::kWrongState, "there is no mesh yet"};
+    const std::uint64_t number = frames_added();
+    if (positions.size() != 3 * std::size_t{stretch_->mesh.vertex_count}) {
+      return at_frame(number,
+                      invalid_argument("the frame has " + std::to_string(positions.size() / 3) +
+                                       " vertices, the mesh " + std::to_string(stretch_->mesh.vertex_count)));
+    }
+    if (Status status = check_frame(positions, number); !status.ok()) return status;
+    if (options_->box && !holds(*options_->box, frame_box))
+      return at_frame(number, invalid_input("the frame leaves the box that was declared"));
+    return with_joints_ ? check_joints(joints, stretch_->skeleton, number) : Status();
+  }
+
+  /// Does what cannot be taken back: an error stays.
+  template <class Work>
+  Status lasting(Work work) {
+    Status status;
+    try {
+      lost_ = Error{ErrorCode::kIo, "the stream is lost: the sink did not come back"};
+      status = work();
+    } catch (const std::bad_alloc&) {
+      status = no_memory();
+    }
+    lost_.reset();
+    if (!status.ok()) lost_ = status.error();
+    return status;
+  }
+
+  std::uint64_t frames_added() const { return frames_before_ + (cutter_ ? cutter_->frames() : 0); }
+
+  Status begin_stretch(const Mesh& mesh, const Skeleton& skeleton) {
+    auto stretch = std::make_shared<const Stretch>(mesh, skeleton, options_);
+    if (stretch_) {
+      if (Status status = flush(); !status.ok()) return status;
+    } else {
+      limits_ = limits_for(mesh, *options_);
+      report_.vertices = mesh.vertex_count;
+      if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
+    }
+    frames_before_ = frames_added();
+    stretch_ = std::move(stretch);
+    cutter_.emplace(options_->gop_frames, options_->importance.low_delay);
+    return writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, stretch_->encoded.payload));
+  }
+
+  Status enqueue(GopContent gop) {
+    const BoundingBox gop_box = std::exchange(gop_box_, BoundingBox());
+    const Result<Lattice> lattice = lattice_over(options_->box.value_or(gop_box), options_->fine_bits,
+                                                 options_->coarse_bits, options_->step);
+    if (!lattice) return lattice.error();
+    while (queue_.full()) {
+      if (Status status = write(queue_.take_or_make_room()); !status.ok()) return status;
+    }
+    gop.first_frame += options_->first_frame + frames_before_;
+    const auto frame_count = static_cast<std::uint32_t>(gop.content->frames.size());
+    queue_.add(frame_count,
+               [job = Job{std::move(gop), stretch_, *lattice, limits_}] { return mark_and_encode(job); });
+    return {};
+  }
+
+  Status flush() {
+    if (std::optional<GopContent> gop = cutter_->flush()) {
+      if (Status status = enqueue(std::move(*gop)); !status.ok()) return status;
+    }
+    while (std::optional<GopQueue::Done> done = queue_.take_next()) {
+      if (Status status = write(std::move(done)); !status.ok()) return status;
     }
     return {};
   }
 
-  std::uint64_t frames() const { return frames_; }
-  std::uint64_t gops() const { return gops_; }
-
- private:
-  struct Pending {
-    std::uint32_t frame_count;
-    std::future<Result<std::vector<std::uint8_t>>> chunk;
-  };
-
-  Status write_oldest() {
-    Pending oldest = std::move(pending_.front());
-    pending_.pop_front();
-    const Result<std::vector<std::uint8_t>> chunk = oldest.chunk.get();
-    if (!chunk) return chunk.error();
-    if (Status status = writer_.write_gop_chunk(*chunk, oldest.frame_count); !status.ok()) return status;
-    frames_ += oldest.frame_count;
-    ++gops_;
-    if (progress_) progress_(frames_, total_);
+  Status write_what_is_done() {
+    while (std::optional<GopQueue::Done> done = queue_.take()) {
+      if (Status status = write(std::move(done)); !status.ok()) return status;
+    }
     return {};
   }
 
-  StreamWriter& writer_;
-  unsigned threads_;
-  const EncodeProgress& progress_;
-  std::optional<std::uint64_t> total_;
-  std::deque<Pending> pending_;
-  std::uint64_t frames_ = 0;
-  std::uint64_t gops_ = 0;
+  Status write(std::optional<GopQueue::Done> done) {
+    if (!done) return {};
+    if (!done->chunk) return done->chunk.error();
+    if (Status status = writer_.write_gop_chunk(*done->chunk, done->frame_count); !status.ok()) return status;
+    report_.frames += done->frame_count;
+    ++report_.gops;
+    if (progress_) progress_(report_.frames, std::nullopt);
+    return {};
+  }
+
+  static bool holds(const BoundingBox& outer, const BoundingBox& inner) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (inner.low()[axis] < outer.low()[axis] || inner.high()[axis] > outer.high()[axis]) return false;
+    }
+    return true;
+  }
+
+  const std::shared_ptr<const EncodeOptions> options_;
+  EncodeProgress progress_;
+  StreamWriter writer_;
+  GopQueue queue_;
+  const bool with_joints_;
+  StreamLimits limits_;
+  EncodeReport report_;
+  std::shared_ptr<const Stretch> stretch_;
+  std::optional<GopCutter> cutter_;
+  BoundingBox gop_box_;
+  std::uint64_t frames_before_ = 0;  ///< those of meshes before the present one
+  bool finished_ = false;
+  std::optional<Error> lost_;
 };
+
+Encoder::Encoder(EncodeOptions options, ByteSink sink, EncodeProgress progress)
+    : state_(std::make_unique<State>(std::move(options), std::move(sink), std::move(progress))) {}
+Encoder::Encoder(Encoder&&) noexcept = default;
+Encoder& Encoder::operator=(Encoder&&) noexcept = default;
+Encoder::~Encoder() = default;
+
+Status Encoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton) {
+  return state_->set_mesh(mesh, skeleton);
+}
+
+Status Encoder::add_frame(std::span<const float> positions, std::span<const float> joints) {
+  return state_->add_frame(positions, joints);
+}
+
+Result<EncodeReport> Encoder::finish() {
+  return state_->finish();
+}
+
+namespace {
 
 /// The box of the whole sequence; leaves the source at its first frame. Empty when the source can be read
 /// only once.
@@ -141,52 +283,34 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
     if (!*read) break;
     box.extend(frame);
   }
+  if (box.empty()) return invalid_input("the sequence has no frames");
   if (!source.rewind()) return Error{ErrorCode::kIo, "the input cannot be read a second time"};
   return std::optional(box);
 }
 
-/// The encoding pipeline: frames → GOPs → chunks.
-Result<EncodeReport> encode_checked(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
-                                    const EncodeProgress& progress) {
-  const Result<std::optional<BoundingBox>> whole_box = scan_box(source);
-  if (!whole_box) return whole_box.error();
-
-  const StreamLimits limits = limits_for(source.mesh(), options);
-  EncodedMesh mesh = encode_mesh(source.mesh(), options.keep_vertex_order);
-  Metadata metadata = options.metadata;
-  metadata.merge(source.metadata());
-  if (metadata.count("") > 0) return invalid_argument("a key of the metadata is empty");
-  for (const auto& [key, value] : metadata) {
-    if (!is_metadata_text(key)) return invalid_argument("a key of the metadata is no text in UTF-8");
-    if (!is_metadata_text(value))
-      return invalid_argument("the metadata's value of '" + key + "' is no text in UTF-8");
+Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
+                              const EncodeProgress& progress) {
+  if (!options.box) {
+    const Result<std::optional<BoundingBox>> box = scan_box(source);
+    if (!box) return box.error();
+    options.box = *box;
   }
-  if (write_metadata(metadata).size() > kMaxSmallPayload)
-    return invalid_argument("the metadata is above 1 MiB");
-  StreamWriter writer(sink);
-  if (Status status = writer.write_start(limits, metadata); !status.ok()) return status.error();
-  if (Status status = writer.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh.payload)); !status.ok())
-    return status.error();
-
-  const Measurer measurer(source.mesh(), source.skeleton(), options.importance);
-  GopQueue queue(writer, options.threads, progress, source.frame_count());
-  GopReader reader(source, options.gop_frames, options.importance);
+  options.metadata.merge(source.metadata());
+  EncodeProgress with_total;
+  if (progress) {
+    with_total = [&progress, total = source.frame_count()](
+                     std::uint64_t frames, std::optional<std::uint64_t>) { progress(frames, total); };
+  }
+  Encoder encoder(std::move(options), sink, std::move(with_total));
+  if (Status status = encoder.set_mesh(source.mesh(), source.skeleton()); !status.ok()) return status.error();
+  FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
   for (;;) {
-    Result<std::optional<GopContent>> read = reader.next();
+    const Result<bool> read = source.read_frame(frame);
     if (!read) return read.error();
-    if (!*read) break;
-    GopContent& frames = **read;
-    const Result<Lattice> lattice = lattice_over(*whole_box ? **whole_box : frames.box, options.fine_bits,
-                                                 options.coarse_bits, options.step);
-    if (!lattice) return lattice.error();
-    frames.first_frame += options.first_frame;
-    Job job{.gop = std::move(frames), .measurer = &measurer, .lattice = *lattice};
-    if (Status status = queue.add(std::move(job), mesh.coded, options, limits); !status.ok())
+    if (!*read) return encoder.finish();
+    if (Status status = encoder.add_frame(frame, source.joint_positions()); !status.ok())
       return status.error();
   }
-  if (Status status = queue.finish(); !status.ok()) return status.error();
-  if (Status status = writer.write_end(); !status.ok()) return status.error();
-  return EncodeReport{queue.frames(), source.mesh().vertex_count, queue.gops(), writer.offset(), !*whole_box};
 }
 
 }  // namespace
@@ -198,9 +322,9 @@ Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, c
   if (Status status = check_importance(options.importance, source.mesh(), source.skeleton()); !status.ok())
     return status.error();
   try {
-    return encode_checked(source, options, sink, progress);
+    return push_all(source, options, sink, progress);
   } catch (const std::bad_alloc&) {
-    return out_of_memory("there is not enough memory: use fewer frames per GOP or fewer threads");
+    return no_memory();
   }
 }
 

@@ -1,3 +1,5 @@
+#include "c_api/support.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <exception>
@@ -34,13 +36,11 @@ namespace {
 
 using tvg::Decoder;
 using tvg::Error;
+using tvg::c_api::code_of;
+using tvg::c_api::fits;
+using tvg::c_api::give;
 
-static_assert(sizeof(tvg::Face) == 3 * sizeof(std::uint32_t), "faces are given out as they are");
 static_assert(TVG_TAIL_BYTES == tvg::kTailBytes);
-
-tvg_code code_of(const Error& error) {
-  return static_cast<tvg_code>(static_cast<int>(error.code));
-}
 
 /// Remembers what went wrong and gives its code back.
 tvg_code fail(tvg_decoder& decoder, tvg_code code, const char* text) {
@@ -65,21 +65,6 @@ tvg_code guarded(tvg_decoder& decoder, Work work) {
   } catch (const std::exception&) {
     return fail(decoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");
   }
-}
-
-/// Gives the caller as much of a structure as he knows.
-template <class Info>
-tvg_code give(Info info, Info* target) {
-  static_assert(std::is_trivially_copyable_v<Info>);
-  if (target == nullptr || target->struct_size < sizeof(std::size_t)) return TVG_ERROR_INVALID_ARGUMENT;
-  info.struct_size = std::min(target->struct_size, sizeof(Info));
-  std::memcpy(static_cast<void*>(target), &info, info.struct_size);
-  return TVG_OK;
-}
-
-bool fits(std::uint64_t vertex_count, const void* target, std::size_t size, std::size_t stride) {
-  if (target == nullptr || stride < 12 || size < 12) return false;
-  return vertex_count <= (size - 12) / stride + 1;
 }
 
 tvg_event event_of(tvg_decoder& handle, Decoder::Event event) {
@@ -122,9 +107,9 @@ uint32_t tvg_version(void) {
   return TVG_VERSION;
 }
 
-const char* tvg_code_name(tvg_code code) {
+const char* tvg_code_name(int code) {
   if (code == TVG_OK) return "ok";
-  return tvg::error_name(static_cast<tvg::ErrorCode>(static_cast<int>(code)));
+  return tvg::error_name(static_cast<tvg::ErrorCode>(code));
 }
 
 tvg_code tvg_limits_init(tvg_limits* limits) {
@@ -250,7 +235,7 @@ tvg_code tvg_decoder_copy_positions(const tvg_decoder* decoder, void* positions,
   return TVG_OK;
 }
 
-tvg_code tvg_decoder_copy_normals(tvg_decoder* decoder, void* normals, size_t size, size_t stride) {
+tvg_code tvg_decoder_compute_normals(tvg_decoder* decoder, void* normals, size_t size, size_t stride) {
   if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
   if (!decoder->has_frame) return fail(*decoder, TVG_ERROR_WRONG_STATE, "there is no frame now");
   const tvg::Mesh& mesh = decoder->decoder.mesh();

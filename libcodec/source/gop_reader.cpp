@@ -5,44 +5,24 @@
 
 namespace tvg {
 
-namespace {
-
-/// The first frame alone.
-std::shared_ptr<const GopFrames> first_frame_of(const GopFrames& content) {
-  auto first = std::make_shared<GopFrames>();
-  first->frames.push_back(content.frames.front());
-  if (!content.joints.empty()) first->joints.push_back(content.joints.front());
-  return first;
-}
-
-}  // namespace
-
 Result<std::optional<GopContent>> GopReader::next() {
-  const bool with_joints = uses_skeleton(importance_);
-  const auto frames = std::make_shared<GopFrames>();
-  GopContent gop;
-  gop.first_frame = frames_read_;
-  for (; !at_end_ && frames->frames.size() < gop_frames_; ++frames_read_) {
+  while (!at_end_) {
     FramePositions frame(3 * std::size_t{source_.mesh().vertex_count});
-    const Result<bool> read = read_checked(source_, frame, frames_read_);
+    const Result<bool> read = read_checked(source_, frame, cutter_.frames());
     if (!read) return read.error();
     at_end_ = !*read;
     if (at_end_) break;
-    gop.box.extend(frame);
-    frames->frames.push_back(std::move(frame));
-    if (!with_joints) continue;
-    Result<std::vector<float>> joints = read_joints(source_, frames_read_);
-    if (!joints) return joints.error();
-    frames->joints.push_back(std::move(*joints));
+    std::vector<float> joints;
+    if (with_joints_) {
+      const std::span<const float> given = source_.joint_positions();
+      if (Status status = check_joints(given, source_.skeleton(), cutter_.frames()); !status.ok())
+        return status.error();
+      joints.assign(given.begin(), given.end());
+    }
+    if (std::optional<GopContent> gop = cutter_.add(std::move(frame), std::move(joints))) return gop;
   }
-  if (frames_read_ == 0) return invalid_input("the sequence has no frames");
-  if (frames->frames.empty()) return std::optional<GopContent>();
-  gop.content = gop.marked_by = frames;
-  if (importance_.low_delay) {
-    gop.marked_by = previous_ ? previous_ : first_frame_of(*frames);
-    previous_ = frames;
-  }
-  return std::optional(std::move(gop));
+  if (cutter_.frames() == 0) return invalid_input("the sequence has no frames");
+  return cutter_.flush();
 }
 
 }  // namespace tvg

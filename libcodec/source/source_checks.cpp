@@ -24,30 +24,31 @@ Status check_mesh(const Mesh& mesh) {
   return {};
 }
 
-Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint64_t number) {
-  Result<bool> read = source.read_frame(frame);
-  if (!read || !*read) return read;
+Status check_frame(std::span<const float> frame, std::uint64_t number) {
   const auto bad = std::find_if_not(frame.begin(), frame.end(), [](float x) { return std::isfinite(x); });
-  if (bad == frame.end()) return true;
+  if (bad == frame.end()) return {};
   const auto i = static_cast<std::size_t>(bad - frame.begin());
   return at_frame(number, invalid_input("vertex " + std::to_string(i / 3) +
                                         " has a coordinate that is infinite or not a number"));
 }
 
-Result<std::vector<float>> read_joints(const FrameSource& source, std::uint64_t number) {
-  const std::span<const float> joints = source.joint_positions();
-  const std::size_t joint_count = source.skeleton().joint_names.size();
-  const auto invalid = [number](std::string message) {
-    return at_frame(number, invalid_input(std::move(message)));
-  };
+Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint64_t number) {
+  Result<bool> read = source.read_frame(frame);
+  if (!read || !*read) return read;
+  if (Status status = check_frame(frame, number); !status.ok()) return status.error();
+  return true;
+}
+
+Status check_joints(std::span<const float> joints, const Skeleton& skeleton, std::uint64_t number) {
+  const std::size_t joint_count = skeleton.joint_names.size();
   if (joints.size() != 3 * joint_count) {
-    return invalid("there are positions for " + std::to_string(joints.size() / 3) + " of the skeleton's " +
-                   std::to_string(joint_count) + " joints");
+    return at_frame(number, invalid_input("there are positions for " + std::to_string(joints.size() / 3) +
+                                          " of the skeleton's " + std::to_string(joint_count) + " joints"));
   }
   if (!std::all_of(joints.begin(), joints.end(), [](float x) { return std::isfinite(x); })) {
-    return invalid("a joint has a coordinate that is infinite or not a number");
+    return at_frame(number, invalid_input("a joint has a coordinate that is infinite or not a number"));
   }
-  return std::vector<float>(joints.begin(), joints.end());
+  return {};
 }
 
 }  // namespace tvg

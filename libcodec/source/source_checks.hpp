@@ -1,6 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <vector>
+#include <span>
 
 #include <tvg/source.hpp>
 
@@ -11,12 +11,15 @@ namespace tvg {
 /// refer to its vertices.
 Status check_mesh(const Mesh& mesh);
 
-/// Reads the next frame ([vertex][xyz]) into `frame`, which has its size. False at the end. kInvalidInput,
-/// with `number` as the frame's, for coordinates that are infinite or not a number.
+/// kInvalidInput, with `number` as the frame's, for coordinates that are infinite or not a number.
+Status check_frame(std::span<const float> frame, std::uint64_t number);
+
+/// Reads the next frame ([vertex][xyz]) into `frame`, which has its size. False at the end. Fails as the
+/// source does and as check_frame().
 Result<bool> read_checked(FrameSource& source, FramePositions& frame, std::uint64_t number);
 
-/// Where the joints are in the frame that was read last ([joint][xyz]). kInvalidInput unless all of them are
-/// somewhere.
-Result<std::vector<float>> read_joints(const FrameSource& source, std::uint64_t number);
+/// kInvalidInput, with `number` as the frame's, unless every joint of the skeleton is somewhere
+/// ([joint][xyz]).
+Status check_joints(std::span<const float> joints, const Skeleton& skeleton, std::uint64_t number);
 
 }  // namespace tvg

@@ -69,7 +69,7 @@ TEST(CApi, EveryFunctionTakesNull) {
   EXPECT_EQ(tvg_decoder_get_damage(nullptr, nullptr), TVG_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(tvg_decoder_copy_flags(nullptr, nullptr, 0), TVG_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(tvg_decoder_copy_positions(nullptr, nullptr, 0, 12), TVG_ERROR_INVALID_ARGUMENT);
-  EXPECT_EQ(tvg_decoder_copy_normals(nullptr, nullptr, 0, 12), TVG_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(tvg_decoder_compute_normals(nullptr, nullptr, 0, 12), TVG_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(tvg_locate_index(nullptr, 28, 100, &number, &number), TVG_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(tvg_decoder_load_index(nullptr, "x", 1), TVG_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(tvg_decoder_seek(nullptr, 0, &number), TVG_ERROR_INVALID_ARGUMENT);
@@ -100,10 +100,10 @@ TEST(CApi, WhatIsNotThereYetOrNotAnyMoreIsAWrongState) {
     tvg_frame_info frame = {};
     frame.struct_size = sizeof frame;
     return std::array{
-        tvg_decoder_get_stream(decoder.get(), &head),  tvg_decoder_get_mesh(decoder.get(), &mesh),
-        tvg_decoder_get_gop(decoder.get(), &gop),      decoder.copy_flags(flags.data(), flags.size()),
-        tvg_decoder_get_frame(decoder.get(), &frame),  decoder.copy_positions(room.data(), room.size()),
-        decoder.copy_normals(room.data(), room.size())};
+        tvg_decoder_get_stream(decoder.get(), &head),     tvg_decoder_get_mesh(decoder.get(), &mesh),
+        tvg_decoder_get_gop(decoder.get(), &gop),         decoder.copy_flags(flags.data(), flags.size()),
+        tvg_decoder_get_frame(decoder.get(), &frame),     decoder.copy_positions(room.data(), room.size()),
+        decoder.compute_normals(room.data(), room.size())};
   };
   const auto expected = [](int known) {
     std::array<tvg_code, 7> result;
@@ -144,11 +144,11 @@ TEST(CApi, BuffersThatAreTooSmallAreRefusedAndOthersNotOverrun) {
     std::vector<std::uint8_t> room(needed + 8, 0xAB);
     EXPECT_EQ(tvg_decoder_copy_positions(decoder.get(), room.data(), needed - 1, stride),
               TVG_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(tvg_decoder_copy_normals(decoder.get(), room.data(), needed - 1, stride),
+    EXPECT_EQ(tvg_decoder_compute_normals(decoder.get(), room.data(), needed - 1, stride),
               TVG_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(std::count(room.begin(), room.end(), 0xAB), static_cast<std::ptrdiff_t>(room.size()));
     EXPECT_EQ(tvg_decoder_copy_positions(decoder.get(), room.data(), needed, stride), TVG_OK);
-    EXPECT_EQ(tvg_decoder_copy_normals(decoder.get(), room.data(), needed, stride), TVG_OK);
+    EXPECT_EQ(tvg_decoder_compute_normals(decoder.get(), room.data(), needed, stride), TVG_OK);
     EXPECT_EQ(std::count(room.end() - 8, room.end(), 0xAB), 8);
   }
   std::vector<float> room(3 * count);

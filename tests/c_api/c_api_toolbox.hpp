@@ -36,7 +36,7 @@ inline CFrame current_c_frame(StreamDecoder& decoder) {
   CFrame frame{std::vector<float>(3 * count), std::vector<float>(3 * count),
                std::vector<std::uint8_t>(count)};
   EXPECT_EQ(decoder.copy_positions(frame.positions.data(), 3 * count), TVG_OK);
-  EXPECT_EQ(decoder.copy_normals(frame.normals.data(), 3 * count), TVG_OK);
+  EXPECT_EQ(decoder.compute_normals(frame.normals.data(), 3 * count), TVG_OK);
   EXPECT_EQ(decoder.copy_flags(frame.flags.data(), count), TVG_OK);
   return frame;
 }

@@ -97,7 +97,7 @@ class Session {
       std::vector<float> positions(3 * std::size_t{mesh->vertex_count}), normals(positions.size());
       std::vector<std::uint8_t> flags(mesh->vertex_count);
       require(decoder_.copy_positions(positions.data(), positions.size()) == TVG_OK);
-      require(decoder_.copy_normals(normals.data(), normals.size()) == TVG_OK);
+      require(decoder_.compute_normals(normals.data(), normals.size()) == TVG_OK);
       require(decoder_.copy_flags(flags.data(), flags.size()) == TVG_OK);
       frames_.insert_or_assign(frame->number, std::move(positions));
     }
@@ -111,7 +111,7 @@ class Session {
     std::vector<float> room(48);
     std::vector<std::uint8_t> flags(16);
     decoder_.copy_positions(room.data(), room.size());
-    decoder_.copy_normals(room.data(), room.size());
+    decoder_.compute_normals(room.data(), room.size());
     decoder_.copy_flags(flags.data(), flags.size());
     (void)decoder_.stream();
     (void)decoder_.gop();

@@ -1,9 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
+#include <tvg/geometry.hpp>
 #include <tvg/measure.hpp>
 #include <tvg/source.hpp>
 #include <tvg/types.hpp>
@@ -28,22 +29,64 @@ struct EncodeOptions {
   bool keep_vertex_order = true;
   std::uint64_t first_frame = 0;  ///< number of the source's first frame in a longer sequence it was cut from
   unsigned threads = 1;           ///< GOPs encoded at the same time; the bytes do not depend on it
-  Metadata metadata;              ///< added to what the source says
+  Metadata metadata;              ///< encode() adds what the source says
+
+  /// What all frames lie in: every GOP then has the same lattice. Absent: each GOP has a box of its own, but
+  /// encode() looks for that of the whole source where it can be read twice.
+  std::optional<BoundingBox> box;
+  /// Bounds for the meshes to come, which the head declares; what the first mesh has where it has more.
+  std::uint32_t max_vertices = 0;
+  std::uint32_t max_faces = 0;
 };
 
 /// What encoding made, in bytes.
 struct EncodeReport {
   std::uint64_t frames = 0;
-  std::uint32_t vertices = 0;
+  std::uint32_t vertices = 0;  ///< of the first mesh
   std::uint64_t gops = 0;
   std::uint64_t bytes = 0;       ///< of the whole stream
-  bool box_of_each_gop = false;  ///< the source could be read only once, so each GOP has a lattice of its own
+  bool box_of_each_gop = false;  ///< no box was known beforehand, so each GOP has a lattice of its own
 };
 
-/// Encodes a sequence to a stream in one pass of writing. A source that can be rewound is read twice, first
-/// for the bounding box of the whole sequence. Memory is in proportion to `threads` GOPs. Errors:
-/// kInvalidArgument for options out of range, kInvalidInput for geometry that cannot be encoded, and what
-/// source and sink return.
+/// The encoder, pushed: set the mesh, add its frames, finish; the stream goes to a sink.
+///
+/// A GOP is encoded as soon as its last frame is there and goes to the sink, in order, from the first call
+/// after it is complete: with one thread from the call that completes it. The bytes do not depend on the
+/// number of threads. Memory is in proportion to `threads` + 2 GOPs. Calls come from one thread at a time;
+/// the sink and the progress are only called from within them, and what they throw passes through.
+///
+/// A call that fails with kWrongState (what comes out of turn), kInvalidArgument or kInvalidInput (what was
+/// given cannot be encoded) or kLimitExceeded for a mesh changes nothing: others may follow. After any other
+/// error the stream is lost, and every further call returns that error.
+class Encoder {
+ public:
+  Encoder(EncodeOptions options, ByteSink sink, EncodeProgress progress = {});
+  Encoder(Encoder&&) noexcept;
+  Encoder& operator=(Encoder&&) noexcept;
+  ~Encoder();
+
+  /// The mesh of the frames that follow, and the joints that move it, if any; both are copied. The first call
+  /// writes the head: kInvalidArgument where the options are out of range, or the importance asks for what
+  /// this mesh and skeleton do not have. A later call ends the GOP and begins a new mesh: kLimitExceeded
+  /// where that is larger than the head declares, kWrongState where the mesh before it has no frame yet.
+  Status set_mesh(const Mesh& mesh, const Skeleton& skeleton = {});
+
+  /// The next frame: positions [vertex][xyz] and, where the importance uses the skeleton, the joints
+  /// [joint][xyz]. Both are copied. kInvalidArgument for a wrong size; kInvalidInput for what is not finite
+  /// or outside the box of the options.
+  Status add_frame(std::span<const float> positions, std::span<const float> joints = {});
+
+  /// Ends the stream. kInvalidInput where there was no frame. Nothing may follow.
+  Result<EncodeReport> finish();
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+/// Pushes a sequence through an encoder. A source that can be rewound is read twice, first for the bounding
+/// box of the whole sequence, unless the options have one. Errors: kInvalidArgument for options out of range,
+/// kInvalidInput for geometry that cannot be encoded, and what source and sink return.
 Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                             const EncodeProgress& progress = {});
 

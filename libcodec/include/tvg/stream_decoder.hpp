@@ -40,8 +40,8 @@ class StreamDecoder {
   tvg_code copy_positions(float* positions, std::size_t count) const {
     return tvg_decoder_copy_positions(get(), positions, count * sizeof(float), 3 * sizeof(float));
   }
-  tvg_code copy_normals(float* normals, std::size_t count) {
-    return tvg_decoder_copy_normals(get(), normals, count * sizeof(float), 3 * sizeof(float));
+  tvg_code compute_normals(float* normals, std::size_t count) {
+    return tvg_decoder_compute_normals(get(), normals, count * sizeof(float), 3 * sizeof(float));
   }
   tvg_code copy_flags(std::uint8_t* flags, std::size_t count) const {
     return tvg_decoder_copy_flags(get(), flags, count);

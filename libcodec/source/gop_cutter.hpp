@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include <tvg/types.hpp>
+
+namespace tvg {
+
+/// A run of frames in memory.
+struct GopFrames {
+  std::vector<FramePositions> frames;      ///< [frame][vertex][xyz], in the order of the input mesh
+  std::vector<std::vector<float>> joints;  ///< [frame][joint][xyz]; empty unless the measure uses them
+};
+
+/// The frames of a GOP. They are shared: those of one GOP may mark the next.
+struct GopContent {
+  std::shared_ptr<const GopFrames> content;
+  std::shared_ptr<const GopFrames> marked_by;  ///< what the measure looks at
+  std::uint64_t first_frame = 0;               ///< counted from the first that was added
+};
+
+/// Cuts the frames of one mesh into GOPs. It takes frames that were checked.
+class GopCutter {
+ public:
+  /// `low_delay`: as Importance has it.
+  GopCutter(std::uint32_t gop_frames, bool low_delay) : gop_frames_(gop_frames), low_delay_(low_delay) {}
+
+  /// Takes the next frame and, where the measure uses them, its joints; gives the GOP that it completes.
+  std::optional<GopContent> add(FramePositions frame, std::vector<float> joints);
+  /// The GOP of the frames that are left, if any.
+  std::optional<GopContent> flush();
+
+  std::uint64_t frames() const { return frames_; }
+
+ private:
+  std::uint32_t gop_frames_;
+  bool low_delay_;
+  std::uint64_t frames_ = 0;
+  std::shared_ptr<GopFrames> present_;
+  std::shared_ptr<const GopFrames> previous_;
+};
+
+}  // namespace tvg
