@@ -1,5 +1,5 @@
 #include "connectivity/mesh_coder_encode.hpp"
-#include "container/layout.hpp"
+#include "container/metadata.hpp"
 #include "container/stream_writer.hpp"
 #include "modes/gop_encoder.hpp"
 #include "quantization/bounding_box.hpp"

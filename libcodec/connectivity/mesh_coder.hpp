@@ -1,6 +1,7 @@
 #pragma once
 #include "base/byte_io.hpp"
 #include "connectivity/connectivity.hpp"
+#include "container/mesh_payload.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -19,7 +20,7 @@ struct CodedMesh {
   std::uint32_t payload_checksum = 0;  ///< of the mesh chunk: part of what its GOPs' packets are checked by
 };
 
-/// Decodes the payload of a mesh chunk (format-spec §4.3).
-Result<CodedMesh> decode_mesh(Bytes payload, const StreamLimits& limits);
+/// Decodes a mesh from the parts of its chunk (format-spec §4.3), whose payload has this checksum.
+Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t payload_checksum);
 
 }  // namespace tvg

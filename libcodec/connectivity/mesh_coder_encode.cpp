@@ -3,7 +3,7 @@
 #include "base/checksum.hpp"
 #include "connectivity/connectivity_encode.hpp"
 #include "connectivity/vertex_order_encode.hpp"
-#include "container/layout.hpp"
+#include "container/mesh_payload.hpp"
 
 namespace tvg {
 

@@ -1,19 +1,22 @@
-#include "container/stream_map.hpp"
+#include "base/allocation.hpp"
 
 #include <algorithm>
 
+#include <tvg/stream_map.hpp>
+
 namespace tvg {
 
-void StreamMap::note(const IndexEntry& entry, std::uint64_t first_frame) {
-  if (from_index_ || (!places_.empty() && entry.offset <= places_.back().entry.offset)) return;
-  places_.push_back({entry, first_frame});
+bool StreamMap::note(const IndexEntry& entry, std::uint64_t first_frame) {
+  if (from_index_ || (!places_.empty() && entry.offset <= places_.back().entry.offset)) return true;
+  return try_push_back(places_, Place{entry, first_frame});
 }
 
-void StreamMap::set_index(const std::vector<IndexEntry>& entries) {
+bool StreamMap::set_index(std::span<const IndexEntry> entries) {
   places_.clear();
-  places_.reserve(entries.size());
+  from_index_ = try_reserve(places_, entries.size());
+  if (!from_index_) return false;
   for (const IndexEntry& entry : entries) places_.push_back({entry, frame_count()});
-  from_index_ = true;
+  return true;
 }
 
 const StreamMap::Place* StreamMap::gop_for(std::uint64_t frame) const {
@@ -42,7 +45,7 @@ const StreamMap::Place* StreamMap::at(std::uint64_t offset) const {
   return place != places_.end() && place->entry.offset == offset ? &*place : nullptr;
 }
 
-bool StreamMap::matches(const std::vector<IndexEntry>& entries) const {
+bool StreamMap::matches(std::span<const IndexEntry> entries) const {
   return std::equal(places_.begin(), places_.end(), entries.begin(), entries.end(),
                     [](const Place& place, const IndexEntry& entry) { return place.entry == entry; });
 }

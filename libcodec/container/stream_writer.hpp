@@ -1,5 +1,8 @@
 #pragma once
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/head.hpp"
+#include "container/index.hpp"
+#include "container/metadata.hpp"
 
 #include <cstdint>
 #include <functional>

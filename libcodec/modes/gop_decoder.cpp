@@ -1,6 +1,7 @@
 #include "modes/gop_decoder.hpp"
 
-#include "container/layout.hpp"
+#include "base/allocation.hpp"
+#include "base/stream_error.hpp"
 #include "entropy/range_coder.hpp"
 #include "quantization/flag_coder.hpp"
 
@@ -9,41 +10,28 @@
 
 namespace tvg {
 
-namespace {
-
-Error malformed(const char* section, const char* message) {
-  return {ErrorCode::kMalformed, message, {}, {}, section};
-}
-
-}  // namespace
-
-// format-spec §4.5.1, §7.4
-Status GopDecoder::begin(Bytes header_packet, const CodedMesh& mesh, const StreamLimits& limits) {
-  const Result<GopHeader> header = read_gop_header(header_packet);
-  if (!header) return header.error();
-  if (header->frame_count > limits.frames_per_gop) {
-    return Error{
-        ErrorCode::kLimitExceeded, "the GOP has more frames than the stream's head declares", {}, {}, "§4.1"};
-  }
+// format-spec §7.4
+Status GopDecoder::begin(const GopHeader& header, const CodedMesh& mesh) {
+  const std::size_t vertex_count = mesh.gates.size();
+  // Three planes and the flags, and the models, whose size does not depend on the mesh.
+  constexpr std::size_t kModelBytes = std::size_t{1} << 19;
+  if (!can_allocate(vertex_count * (3 * sizeof(Quad) + 1) + kModelBytes)) return out_of_memory();
   mesh_ = &mesh;
-  lattice_ = {header->origin, header->step, header->fine_bits, header->coarse_bits};
-  const auto vertex_count = static_cast<std::uint32_t>(mesh.gates.size());
-  info_ = {header->first_frame,
-           header->first_frame,
-           header->frame_count,
-           static_cast<Predictor>(header->predictor),
-           header->fine_bits,
-           header->coarse_bits,
-           header->origin,
-           header->step,
-           vertex_count,
-           0,
-           header_packet.size() - header->flags.size(),
-           header->flags.size()};
+  lattice_ = {header.origin, header.step, header.fine_bits, header.coarse_bits};
+  info_ = {};
+  info_.first_frame = info_.source_frame = header.first_frame;
+  info_.frame_count = header.frame_count;
+  info_.predictor = static_cast<Predictor>(header.predictor);
+  info_.fine_bits = header.fine_bits;
+  info_.coarse_bits = header.coarse_bits;
+  info_.origin = header.origin;
+  info_.step = header.step;
+  info_.flagged = static_cast<std::uint32_t>(vertex_count);
+  info_.flag_bytes = header.flags.size();
   flags_.clear();
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
-    RangeDecoder coder(header->flags);
+    RangeDecoder coder(header.flags);
     code_flags(coder, mesh.gates, flags_);
     if (!coder.finished()) return malformed("§7.4", "the importance flags do not fill their bytes exactly");
     info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));
@@ -83,8 +71,8 @@ Status GopDecoder::check_digest(Bytes packet) const {
   const std::uint64_t expected = reader.u64();
   if (!reader.finished()) return malformed("§4.5", "the GOP's digest has a wrong size");
   if (expected == digest_.value()) return {};
-  return Error{
-      ErrorCode::kDigestMismatch, "the GOP decoded to other values than were encoded", {}, {}, "§7.6"};
+  return stream_error(ErrorCode::kDigestMismatch, "§7.6",
+                      {"the GOP decoded to other values than were encoded"});
 }
 
 void GopDecoder::copy_positions(void* positions, std::size_t stride) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/checksum.hpp"
 #include "connectivity/mesh_coder.hpp"
+#include "container/gop_header.hpp"
 #include "planes/frame_coder.hpp"
 
 #include <cstdint>
@@ -15,8 +16,8 @@ namespace tvg {
 /// Decodes one GOP, packet by packet (format-spec §4.5, §7). Allocates in begin() and not after.
 class GopDecoder {
  public:
-  /// Takes the header packet. `mesh` must outlive the GOP.
-  Status begin(Bytes header_packet, const CodedMesh& mesh, const StreamLimits& limits);
+  /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
+  Status begin(const GopHeader& header, const CodedMesh& mesh);
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.
   Status decode_frame(Bytes packet);

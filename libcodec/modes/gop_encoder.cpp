@@ -1,7 +1,9 @@
 #include "modes/gop_encoder.hpp"
 
 #include "base/checksum.hpp"
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/gop_header.hpp"
+#include "container/packet.hpp"
 #include "entropy/range_coder.hpp"
 #include "planes/frame_coder.hpp"
 #include "quantization/flag_coder.hpp"

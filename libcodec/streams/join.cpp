@@ -57,14 +57,7 @@ class Joiner {
 
   Status write_start() {
     StreamLimits limits;
-    for (const JoinInputReader& reader : readers_) {
-      const StreamLimits& other = reader.limits();
-      limits.vertices = std::max(limits.vertices, other.vertices);
-      limits.faces = std::max(limits.faces, other.faces);
-      limits.frames_per_gop = std::max(limits.frames_per_gop, other.frames_per_gop);
-      limits.packet_bytes = std::max(limits.packet_bytes, other.packet_bytes);
-    }
-    limits.decoder_memory = decoder_memory_needed(limits);
+    for (const JoinInputReader& reader : readers_) limits = larger_limits(limits, reader.limits());
     const Metadata metadata = merge_metadata();
     if (write_metadata(metadata).size() > kMaxSmallPayload) {
       return Error{ErrorCode::kLimitExceeded,

@@ -1,5 +1,6 @@
 #include "codec_toolbox.hpp"
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/head.hpp"
 #include "container/stream_writer.hpp"
 #include "corpus/corpus.hpp"
 

@@ -1,6 +1,8 @@
 #include "streams.hpp"
 
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/gop_header.hpp"
+#include "container/head.hpp"
 #include "container/stream_writer.hpp"
 #include "corpus/corpus.hpp"
 

@@ -1,5 +1,9 @@
 #include "base/checksum.hpp"
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/gop_header.hpp"
+#include "container/head.hpp"
+#include "container/mesh_payload.hpp"
+#include "container/packet.hpp"
 #include "judge.hpp"
 #include "repair.hpp"
 

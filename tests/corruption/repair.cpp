@@ -1,7 +1,8 @@
 #include "repair.hpp"
 
 #include "base/checksum.hpp"
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/packet.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,10 @@
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
+#include "container/gop_header.hpp"
+#include "container/head.hpp"
+#include "container/index.hpp"
+#include "container/mesh_payload.hpp"
+#include "container/metadata.hpp"
+#include "container/packet.hpp"
 
 #include <array>
 #include <cstdint>

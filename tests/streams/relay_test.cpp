@@ -1,4 +1,4 @@
-#include "container/layout.hpp"
+#include "container/chunk.hpp"
 #include "tests/codec/codec_toolbox.hpp"
 #include "tests/conformance/streams.hpp"
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <tvg/stream_map.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg {
@@ -15,7 +16,8 @@ namespace tvg {
 /// not what was encoded.
 struct Damage {
   std::uint64_t first_frame = 0;  ///< position in the stream of the first frame lost
-  std::uint64_t frame_count = 0;  ///< frames lost; 0 when nobody can know how many
+  std::uint64_t frame_count = 0;  ///< frames lost; 0 where something is wrong by which none is lost
+  bool count_known = true;  ///< false: frames may be lost, nobody can know how many, and frame_count is 0
   Error error;
 };
 
@@ -76,7 +78,7 @@ class Decoder {
     kMesh,       ///< mesh() is valid; frames that follow belong to it
     kGop,        ///< gop() is valid
     kFrame,      ///< a frame is decoded: frame_number(), copy_positions()
-    kDamage,     ///< frames are missing: damage(); decoding goes on
+    kDamage,     ///< frames are missing, or something else is wrong: damage(); decoding goes on
     kEnd,        ///< the stream is complete
     kError,      ///< error() says why decoding cannot go on
   };
@@ -97,8 +99,9 @@ class Decoder {
   /// those met so far is reached by reading on; GOPs in between are passed over, not decoded.
   /// kInvalidArgument where the index says that there is no such frame, or before kHead.
   Result<std::uint64_t> seek(std::uint64_t frame);
-  /// The number of bytes that come next in the input and are of no use on the way to a frame; they count as
-  /// pushed, so that the next push() begins behind them. A caller that reads from a pipe need not ask.
+  /// The number of bytes that come next in the input and are of no use on the way to the frame sought; they
+  /// count as pushed, so that the next push() begins behind them. A caller that reads from a pipe need not
+  /// ask.
   std::uint64_t skip();
   /// Whether frame_bits() is measured; it takes time.
   void measure_bits(bool on);
@@ -137,15 +140,5 @@ class Decoder {
   class State;
   std::unique_ptr<State> state_;
 };
-
-/// Size of the chunk that ends every stream and says where the index is.
-inline constexpr std::size_t kTailBytes = 28;
-
-/// Where the index chunk of a stream of `stream_size` bytes lies, from its last kTailBytes bytes. kMalformed
-/// when they are no tail: the stream is cut, or still being written.
-Result<ByteRange> locate_index(std::span<const std::uint8_t> tail, std::uint64_t stream_size);
-
-/// The entries of an index chunk, from all of its bytes.
-Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk);
 
 }  // namespace tvg

@@ -1,6 +1,11 @@
-#include "container/layout.hpp"
-
 #include "base/checksum.hpp"
+#include "container/chunk.hpp"
+#include "container/gop_header.hpp"
+#include "container/head.hpp"
+#include "container/index.hpp"
+#include "container/mesh_payload.hpp"
+#include "container/metadata.hpp"
+#include "container/packet.hpp"
 
 #include <array>
 #include <cstdint>
@@ -276,7 +281,7 @@ TEST(Index, ComesBack) {
   const Result<std::vector<IndexEntry>> back = read_index(bytes);
   ASSERT_TRUE(back);
   EXPECT_EQ(*back, kEntries);
-  expect_exact_length(bytes, read_index);
+  expect_exact_length(bytes, [](Bytes some) { return read_index(some); });
   EXPECT_TRUE(read_index(write_index({})));
 }
 

@@ -1,0 +1,27 @@
+#include "base/stream_error.hpp"
+
+#include "base/allocation.hpp"
+
+namespace tvg {
+
+Error out_of_memory() {
+  Error error;
+  error.code = ErrorCode::kOutOfMemory;
+  error.message = "out of memory";
+  return error;
+}
+
+Error stream_error(ErrorCode code, const char* section, std::initializer_list<std::string_view> sentence) {
+  if (!can_allocate(kSmallThings)) return out_of_memory();
+  Error error;
+  error.code = code;
+  for (const std::string_view piece : sentence) error.message += piece;
+  error.section = section;
+  return error;
+}
+
+Error malformed(const char* section, std::string_view sentence) {
+  return stream_error(ErrorCode::kMalformed, section, {sentence});
+}
+
+}  // namespace tvg

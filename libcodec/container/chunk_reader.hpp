@@ -1,0 +1,191 @@
+#pragma once
+#include "base/checksum.hpp"
+#include "container/chunk.hpp"
+#include "container/chunk_order.hpp"
+#include "container/gop_header.hpp"
+#include "container/index.hpp"
+#include "container/mesh_payload.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <tvg/types.hpp>
+
+namespace tvg {
+
+/// Takes a stream apart as its bytes arrive: the one reader of its structure (format-spec §3, §4, §8.3). It
+/// knows which chunk may stand where, how long each may be, and what the checksums say; what packets and
+/// meshes decode to it does not know.
+///
+/// After damage it looks for the next chunk by itself. It holds the bytes of one structure that is not
+/// complete yet: a packet, or a payload whose length has a bound. It never throws.
+class ChunkReader {
+ public:
+  enum class Event {
+    kNeedBytes,
+    kChunk,     ///< a chunk begins: chunk(), chunk_offset()
+    kHead,      ///< head()
+    kMetadata,  ///< metadata()
+    kMesh,      ///< a mesh with counts that the head allows: mesh(), content() is the payload
+    kGop,       ///< a GOP with a frame count that the head allows: gop(), content() is the header packet
+    kOrphan,    ///< the same, but the mesh it belongs to is not there: the GOP is passed over
+    kFrame,     ///< content() is a frame's packet
+    kDigest,    ///< content() is the digest of the GOP
+    kGopEnd,    ///< all checksums of the GOP fit
+    kIndex,     ///< index(), index_matches()
+    kProblem,   ///< problem()
+    kEnd,       ///< the tail was read, and nothing follows
+    kFailed,    ///< error() says why nothing more can be read
+  };
+
+  /// Something is wrong, and reading goes on.
+  struct Problem {
+    Error error;
+    bool loses = false;      ///< what was being read cannot be used: the rest of a GOP, or some chunk
+    bool searching = false;  ///< chunks that follow may be passed over unseen
+  };
+
+  explicit ChunkReader(const DecoderLimits& limits) : caller_limits_(limits) {}
+
+  /// Takes the next bytes; they are copied. False where there is no memory for them: the reader has failed.
+  bool push(Bytes bytes);
+  /// Says that no bytes follow.
+  void finish() { finished_ = true; }
+  /// The next event. What it names is valid until the next call of push() or next().
+  Event next();
+
+  /// The content given out last is malformed though its checksum fits: a mesh is not in force, of a GOP the
+  /// rest is passed over and the next chunk looked for.
+  void reject();
+  /// Passes over the rest of the current GOP or chunk unread.
+  void pass_over();
+  /// While a chunk is passed over: how many of the bytes that come next in the input belong to it. They
+  /// count as pushed.
+  std::uint64_t skip();
+  /// Goes on at the chunk at this place, whatever was read before. The head must have been read.
+  void jump(std::uint64_t new_offset);
+  /// Ends reading with this error.
+  Event fail(Error error);
+
+  const StreamHead& head() const { return head_; }
+  Metadata& metadata() { return metadata_; }
+  /// Its parts lie in the bytes given out: they are valid no longer than content().
+  const MeshLayout& mesh() const { return mesh_; }
+  /// Checksum of the payload of the mesh in force, and where its chunk begins.
+  std::uint32_t mesh_checksum() const { return mesh_checksum_; }
+  std::uint64_t mesh_offset() const { return mesh_offset_; }
+  bool has_mesh() const { return has_mesh_; }
+  /// Its flags are valid no longer than content().
+  const GopHeader& gop() const { return gop_; }
+  Bytes content() const { return content_; }
+  /// The bytes of the structure given out last as they stand in the stream: of kChunk the chunk's header, of
+  /// the others all from the end of the structure before. A chunk is the sum of its structures.
+  Bytes raw() const { return available().first(used_); }
+  std::vector<IndexEntry>& index() { return index_; }
+  /// False when the index names other chunks than were met; true also when that cannot be known.
+  bool index_matches() const { return index_matches_; }
+  const ChunkHeader& chunk() const { return chunk_; }
+  std::uint64_t chunk_offset() const { return chunk_offset_; }
+  Problem& problem() { return problem_; }
+  Error& error() { return error_; }
+
+  bool has_head() const { return state_ != StreamState::kStart; }
+  /// Whether all from the first byte on was read and nothing of it lost.
+  bool whole() const { return whole_; }
+  StreamState state() const { return state_; }
+  /// Of the structure given out last, or the first byte not read.
+  std::uint64_t offset() const { return offset_; }
+  /// Of the first byte not pushed.
+  std::uint64_t input_offset() const { return offset_ + available().size(); }
+  /// Whether a chunk is next.
+  bool at_chunk() const { return phase_ == Phase::kChunkHeader; }
+  bool over() const { return phase_ == Phase::kFailed || phase_ == Phase::kEnded; }
+
+ private:
+  enum class Phase {
+    kStart,
+    kChunkHeader,
+    kPayload,   ///< a payload that is used whole
+    kPassOver,  ///< one that is not used
+    kPacket,
+    kGopChecksum,
+    kSearch,
+    kTail,
+    kEnded,
+    kFailed,
+  };
+
+  std::optional<Event> step();
+  std::optional<Event> read_signature();
+  std::optional<Event> read_header();
+  Event use_header(const ChunkHeader& header, ChunkKind kind, OrderRule::Verdict verdict);
+  std::optional<Event> read_payload();
+  std::optional<Event> use_payload(Bytes payload);
+  Event use_head(Bytes payload);
+  Event use_mesh(Bytes payload);
+  Event use_index(Bytes payload);
+  std::optional<Event> use_tail(Bytes payload);
+  std::optional<Event> pass_payload();
+  std::optional<Event> next_packet();
+  Event use_packet(std::uint32_t packet_checksum);
+  std::optional<Event> end_gop();
+  std::optional<Event> search();
+  Event end_stream();
+
+  std::uint64_t most_payload(ChunkKind kind) const;
+  bool reserve_for_packets();
+  std::optional<Event> need_bytes();
+  Event report(Error error);
+  Event lose(Error error, std::size_t passed);
+  Event lose_unproven(Error error, std::size_t size);
+  void begin_search(std::size_t passed);
+
+  Bytes available() const { return Bytes(buffer_).subspan(begin_); }
+  void consume(std::size_t count) {
+    begin_ += count;
+    offset_ += count;
+  }
+
+  DecoderLimits caller_limits_;
+  Phase phase_ = Phase::kStart;
+  StreamState state_ = StreamState::kStart;
+  std::vector<std::uint8_t> buffer_;
+  std::size_t begin_ = 0;     ///< first byte of the buffer not read
+  std::size_t used_ = 0;      ///< bytes from there on of the structure given out last
+  std::uint64_t offset_ = 0;  ///< in the stream, of byte begin_
+  bool finished_ = false;
+
+  StreamHead head_;
+  Metadata metadata_;
+  ChunkHeader chunk_{};
+  ChunkKind kind_ = ChunkKind::kHead;
+  std::uint64_t chunk_offset_ = 0;
+  std::uint64_t payload_left_ = 0;  ///< bytes of the payload not read, where it is read in pieces
+  Hasher payload_hash_;
+  bool hashed_ = true;  ///< the payload is to be compared with its checksum
+  Bytes content_;
+
+  bool has_mesh_ = false;
+  MeshLayout mesh_{};
+  std::uint32_t mesh_checksum_ = 0;
+  std::uint64_t mesh_offset_ = 0;
+
+  GopHeader gop_{};
+  std::uint32_t packet_index_ = 0;     ///< 0: header, 1 to frame_count: frames, then the digest
+  std::uint32_t header_checksum_ = 0;  ///< of the header packet
+
+  ExpectedIndex expected_index_;
+  std::vector<IndexEntry> index_;
+  bool index_matches_ = true;
+  std::optional<std::uint64_t> index_offset_;
+
+  std::optional<std::uint64_t> reported_at_;  ///< where a chunk stands that was said to be out of place
+
+  bool whole_ = true;
+  std::uint64_t read_in_vain_ = 0;  ///< bytes of structures that did not fit their checksums
+  Problem problem_;
+  Error error_;
+};
+
+}  // namespace tvg

@@ -1,0 +1,93 @@
+#include "base/allocation.hpp"
+#include "base/stream_error.hpp"
+#include "decoder/decoder_state.hpp"
+
+#include <string>
+
+// Going to a frame: which chunk to go on at, and what lies between it and the frame.
+namespace tvg {
+
+void Decoder::State::set_index(const std::vector<IndexEntry>& entries) {
+  if (!map_.set_index(entries)) reader.fail(out_of_memory());
+}
+
+Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
+  if (!can_allocate(kSmallThings)) return out_of_memory();
+  if (!reader.has_head())
+    return stream_error(ErrorCode::kInvalidArgument, "", {"the head of the stream has not been read yet"});
+  if (map_.from_index() && frame >= map_.frame_count()) {
+    Error error = stream_error(ErrorCode::kInvalidArgument, "",
+                               {"there is no frame ", std::to_string(frame), ": the stream has ",
+                                std::to_string(map_.frame_count())});
+    error.frame = frame;
+    return error;
+  }
+  const StreamMap::Place* const gop_place = map_.gop_for(frame);
+  const std::uint64_t known_end = map_.frame_count();
+  const bool inside = frames_left() > 0 && frame >= frames.position() && frame < gop_end_;
+  const bool beyond =
+      !map_.from_index() && frame >= known_end && frames.position() >= known_end && !reader.over();
+  target_ = frame;
+  if (inside || beyond || gop_place == nullptr) return reader.input_offset();
+  const StreamMap::Place* const mesh_place = map_.mesh_of(*gop_place);
+  const bool in_force =
+      reader.has_mesh() && (mesh_place == nullptr || mesh_place->entry.offset == reader.mesh_offset());
+  jump(in_force || mesh_place == nullptr ? *gop_place : *mesh_place);
+  return reader.offset();
+}
+
+/// Goes on at this mesh or GOP.
+void Decoder::State::jump(const StreamMap::Place& place) {
+  reader.jump(place.entry.offset);
+  frames.jump(place.first_frame);
+  deferred_.reset();
+  gop_end_ = 0;
+}
+
+std::uint64_t Decoder::State::skip() {
+  if (!target_) return 0;
+  if (const std::uint64_t count = reader.skip(); count > 0) return count;
+  if (!reader.at_chunk() || !map_.from_index() || !reader.has_mesh()) return 0;
+  const StreamMap::Place* const gop_place = map_.gop_for(*target_);
+  const StreamMap::Place* const mesh_place = gop_place != nullptr ? map_.mesh_of(*gop_place) : nullptr;
+  const std::uint64_t input_offset = reader.input_offset();
+  if (mesh_place == nullptr || mesh_place->entry.offset != reader.mesh_offset() ||
+      gop_place->entry.offset <= input_offset) {
+    return 0;
+  }
+  jump(*gop_place);
+  return reader.offset() - input_offset;
+}
+
+/// The GOP whose header was just read ends before the frame sought.
+std::optional<Decoder::Event> Decoder::State::pass_gop(std::uint64_t missing) {
+  const std::uint32_t frame_count = reader.gop().frame_count;
+  reader.pass_over();
+  std::optional<Event> event = check_place();
+  if (frames.has_unknown()) event = tell(frames.lose(missing, frames.take_cause({})));
+  const IndexEntry entry{IndexEntry::Kind::kGop, reader.chunk_offset(), frame_count};
+  if (!map_.note(entry, frames.position())) reader.fail(out_of_memory());
+  frames.advance(frame_count);
+  return event;
+}
+
+/// Where the index has the chunk being read; null without an index.
+const StreamMap::Place* Decoder::State::indexed_place() const {
+  return map_.from_index() ? map_.at(reader.chunk_offset()) : nullptr;
+}
+
+/// An index that came from elsewhere must not lead to wrong frame numbers.
+std::optional<Decoder::Event> Decoder::State::check_place() {
+  if (!map_.from_index()) return std::nullopt;
+  const StreamMap::Place* const place = indexed_place();
+  if (place != nullptr && place->entry.kind == IndexEntry::Kind::kGop &&
+      place->entry.frame_count == reader.gop().frame_count) {
+    return std::nullopt;
+  }
+  map_ = StreamMap();
+  Error error = malformed("§4.6", "the index does not match the stream");
+  error.byte_offset = reader.chunk_offset();
+  return tell(frames.lose(0, std::move(error)));
+}
+
+}  // namespace tvg

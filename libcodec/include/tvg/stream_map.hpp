@@ -1,0 +1,62 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <tvg/types.hpp>
+
+// Where the frames of a stream lie: its index, as bytes and as a map.
+namespace tvg {
+
+/// Size of the chunk that ends every stream and says where the index is.
+inline constexpr std::size_t kTailBytes = 28;
+
+/// Where the index chunk of a stream of `stream_size` bytes lies, from its last kTailBytes bytes. kMalformed
+/// when they are no tail: the stream is cut, or still being written.
+Result<ByteRange> locate_index(std::span<const std::uint8_t> tail, std::uint64_t stream_size);
+
+/// The entries of an index chunk, from all of its bytes.
+Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk);
+
+/// Where the meshes and GOPs of a stream lie and which frames they hold: as they were met while reading from
+/// its start, or as its index says. Places are in the order of the stream.
+class StreamMap {
+ public:
+  struct Place {
+    IndexEntry entry;
+    std::uint64_t first_frame = 0;  ///< position in the stream of the first frame at or behind this place
+
+    std::uint64_t end_frame() const { return first_frame + entry.frame_count; }
+  };
+
+  StreamMap() = default;
+  /// The map that an index gives; empty where there is no memory for it.
+  explicit StreamMap(std::span<const IndexEntry> index) { set_index(index); }
+
+  /// Takes note of a chunk that was read; one that lies before the last one is known already. False where
+  /// there is no memory.
+  bool note(const IndexEntry& entry, std::uint64_t first_frame);
+  /// Takes over an index, which knows the whole stream. False, and an empty map, where there is no memory.
+  bool set_index(std::span<const IndexEntry> entries);
+
+  /// Whether the places are those of an index.
+  bool from_index() const { return from_index_; }
+  std::span<const Place> places() const { return places_; }
+  /// Frames up to the end of the last place.
+  std::uint64_t frame_count() const { return places_.empty() ? 0 : places_.back().end_frame(); }
+  /// The GOP that holds `frame`, or the last one where all end before; null where no GOP is known.
+  const Place* gop_for(std::uint64_t frame) const;
+  /// The mesh of a GOP of this map; null where the stream gives it none.
+  const Place* mesh_of(const Place& gop) const;
+  /// The place that begins at `offset`, or null.
+  const Place* at(std::uint64_t offset) const;
+  /// Whether an index says the same.
+  bool matches(std::span<const IndexEntry> entries) const;
+
+ private:
+  std::vector<Place> places_;
+  bool from_index_ = false;
+};
+
+}  // namespace tvg
