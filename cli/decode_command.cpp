@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "decoder/exporters/frame_sink.hpp"
 #include "tool/concealment.hpp"
+#include "tool/decode_ahead.hpp"
 #include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
@@ -8,8 +9,11 @@
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <thread>
+#include <utility>
 
 namespace tvg::cli {
 
@@ -19,9 +23,13 @@ struct DecodeArguments {
   std::string input;
   std::string output;
   std::string frames;
+  unsigned threads = 0;
   bool conceal = false;
   bool quiet = false;
 };
+
+/// Of frames that were decoded and not written yet. GOPs larger than that are decoded one at a time.
+constexpr std::uint64_t kMostBytesAhead = std::uint64_t{1} << 30;
 
 /// Writes the wanted frames of a stream to a sink, and keeps count of what is missing.
 class DecodeJob {
@@ -31,7 +39,9 @@ class DecodeJob {
         reader_(arguments.input),
         sink_(open_sink(arguments.output, {})),
         concealment_(reader_.name(), arguments.conceal),
-        bar_("decoding", arguments.quiet) {}
+        bar_("decoding", arguments.quiet),
+        threads_(arguments.threads != 0 ? arguments.threads
+                                        : std::max(1u, std::thread::hardware_concurrency())) {}
 
   void run() {
     index_ = reader_.read_index();
@@ -40,6 +50,7 @@ class DecodeJob {
       wanted_ = parse_frame_range(arguments_.frames);
       if (total_) check_frame_range(*wanted_, *total_, reader_.name());
     }
+    if (threads_ > 1 && index_ && *total_ > 0) run_ahead();
     while (!done_) handle(reader_.next());
     if (wanted_ && written_ + lost_ < wanted_->last - wanted_->first + 1) {
       throw ToolError(ExitStatus::kUsage,
@@ -95,15 +106,23 @@ class DecodeJob {
 
   void write_frame() {
     const Decoder& decoder = reader_.decoder();
-    const std::uint64_t frame = decoder.frame_number();
+    if (is_wanted(decoder.frame_number())) decoder.copy_positions(frame_buffer().data());
+    take_frame(decoder.frame_number());
+  }
+
+  /// Where the positions of the next frame go. A mesh that the sink has not heard of gets known to it.
+  std::vector<float>& frame_buffer() {
+    if (!std::exchange(pending_mesh_, false)) return positions_;
+    const Decoder& decoder = reader_.decoder();
+    positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
+    sink_->begin_mesh(decoder.mesh(), decoder.metadata(), output_frames_);
+    return positions_;
+  }
+
+  /// A frame is there; if it is wanted, positions_ holds it.
+  void take_frame(std::uint64_t frame) {
     next_frame_ = frame + 1;
     if (is_wanted(frame)) {
-      if (pending_mesh_) {
-        pending_mesh_ = false;
-        positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-        sink_->begin_mesh(decoder.mesh(), decoder.metadata(), output_frames_);
-      }
-      decoder.copy_positions(positions_.data());
       for (; held_ > 0; --held_)
         sink_->write_frame(positions_);  // lost before any good frame: the first stands in
       sink_->write_frame(positions_);
@@ -111,6 +130,38 @@ class DecodeJob {
       bar_.update(written_, output_frames_);
     }
     if (wanted_ && frame >= wanted_->last) done_ = true;
+  }
+
+  /// Where the mesh lies that begin_mesh() has told the sink of.
+  static std::uint64_t first_mesh_offset(const StreamMap& map) {
+    for (const StreamMap::Place& place : map.places()) {
+      if (place.entry.kind == IndexEntry::Kind::kMesh) return place.entry.offset;
+    }
+    return 0;
+  }
+
+  /// Decodes GOPs several at a time, as long as nothing is wrong with them. What is, is then read in order.
+  void run_ahead() {
+    while (!begun_ && !done_) handle(reader_.next());
+    if (done_) return;
+    const std::uint64_t bytes = std::uint64_t{reader_.decoder().head().limits.frames_per_gop} *
+                                reader_.decoder().head().limits.vertices * 3 * sizeof(float);
+    if (bytes > kMostBytesAhead / (threads_ + 1)) return;
+    std::uint64_t told_mesh = first_mesh_offset(*index_);
+    DecodeAhead ahead(arguments_.input, *index_, wanted_.value_or(FrameRange{0, *total_ - 1}), threads_);
+    while (std::optional<DecodedGop> gop = ahead.next()) {
+      if (!gop->whole) {
+        reader_.seek(gop->first_frame);
+        return;
+      }
+      if (std::exchange(told_mesh, gop->mesh_offset) != gop->mesh_offset)
+        sink_->begin_mesh(*gop->mesh, reader_.decoder().metadata(), output_frames_);
+      for (std::size_t i = 0; i < gop->frames.size() && !done_; ++i) {
+        positions_.swap(gop->frames[i]);
+        take_frame(gop->first_frame + i);
+      }
+    }
+    done_ = true;
   }
 
   void conceal_damage(const Damage& damage) {
@@ -154,6 +205,7 @@ class DecodeJob {
   std::unique_ptr<FrameSink> sink_;
   Concealment concealment_;
   ProgressBar bar_;
+  unsigned threads_;
   std::optional<StreamMap> index_;
   std::optional<std::uint64_t> total_;          ///< frames of the stream
   std::optional<std::uint64_t> output_frames_;  ///< frames that are to be written
@@ -186,6 +238,8 @@ void add_decode_command(CLI::App& tool) {
   command.add_option("--frames", arguments->frames, "decode frames A-B only, counted from 0");
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
+  command.add_option("--threads", arguments->threads, "GOPs decoded at a time (default: one per processor)")
+      ->check(CLI::Range(1, 256));
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] {
     InputFiles inputs;

@@ -1,0 +1,117 @@
+#include "tool/decode_ahead.hpp"
+
+#include "tool/stream_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tvg::cli {
+
+/// One decoder of the file, which goes from GOP to GOP.
+class DecodeAhead::Worker {
+ public:
+  explicit Worker(const std::string& path) : reader_(path) {}
+
+  DecodedGop decode(const StreamMap::Place& place, std::uint64_t mesh_offset) {
+    DecodedGop gop{.first_frame = place.first_frame, .mesh_offset = mesh_offset, .mesh = {}, .frames = {}};
+    if (!begin()) return gop;
+    reader_.seek(gop.first_frame);
+    gop.whole = read_frames(gop, place.entry.frame_count);
+    if (gop.whole && (mesh_ == nullptr || mesh_offset != mesh_offset_)) {
+      mesh_ = std::make_shared<const Mesh>(reader_.decoder().mesh());
+      mesh_offset_ = mesh_offset;
+    }
+    gop.mesh = mesh_;
+    return gop;
+  }
+
+ private:
+  /// Reads the head and the index, the first time.
+  bool begin() {
+    if (begun_) return true;
+    if (!reader_.read_index()) return false;
+    for (;;) {
+      switch (reader_.next()) {
+        case Decoder::Event::kHead:
+          return begun_ = true;
+        case Decoder::Event::kDamage:
+        case Decoder::Event::kEnd:
+        case Decoder::Event::kError:
+          return false;
+        default:
+          break;
+      }
+    }
+  }
+
+  /// Up to the next GOP or the stream's end: what lies between is checked by then.
+  bool read_frames(DecodedGop& gop, std::uint64_t frame_count) {
+    const Decoder& decoder = reader_.decoder();
+    const std::uint64_t end = gop.first_frame + frame_count;
+    for (;;) {
+      switch (reader_.next()) {
+        case Decoder::Event::kGop:
+          if (decoder.gop().first_frame >= end) return gop.frames.size() == frame_count;
+          break;
+        case Decoder::Event::kFrame:
+          if (decoder.frame_number() != gop.first_frame + gop.frames.size()) return false;
+          decoder.copy_positions(
+              gop.frames.emplace_back(3 * std::size_t{decoder.mesh().vertex_count}).data());
+          break;
+        case Decoder::Event::kEnd:
+          return gop.frames.size() == frame_count;
+        case Decoder::Event::kDamage:
+        case Decoder::Event::kError:
+          return false;
+        default:
+          break;
+      }
+    }
+  }
+
+  StreamReader reader_;
+  bool begun_ = false;
+  std::shared_ptr<const Mesh> mesh_;  ///< of the GOP decoded last
+  std::uint64_t mesh_offset_ = 0;
+};
+
+DecodeAhead::DecodeAhead(std::string path, StreamMap map, const FrameRange& frames, unsigned threads)
+    : path_(std::move(path)), map_(std::move(map)), last_frame_(frames.last) {
+  const auto holds_later_frames = [&](const StreamMap::Place& place) {
+    return place.end_frame() > frames.first;
+  };
+  const auto places = map_.places();
+  next_place_ = static_cast<std::size_t>(std::find_if(places.begin(), places.end(), holds_later_frames) -
+                                         places.begin());
+  for (unsigned i = 0; i < threads; ++i) idle_.push_back(std::make_unique<Worker>(path_));
+  for (unsigned i = 0; i < threads; ++i) start_next();
+}
+
+DecodeAhead::~DecodeAhead() = default;
+
+void DecodeAhead::start_next() {
+  const auto places = map_.places();
+  while (next_place_ < places.size() && places[next_place_].entry.kind != IndexEntry::Kind::kGop)
+    ++next_place_;
+  if (next_place_ == places.size() || places[next_place_].first_frame > last_frame_) return;
+  const StreamMap::Place& place = places[next_place_++];
+  const StreamMap::Place* const mesh = map_.mesh_of(place);
+  std::unique_ptr<Worker> worker = std::move(idle_.back());
+  idle_.pop_back();
+  Worker& decoder = *worker;
+  pending_.push_back({std::move(worker), std::async(std::launch::async, [&decoder, place, mesh] {
+                        return decoder.decode(place, mesh != nullptr ? mesh->entry.offset : 0);
+                      })});
+}
+
+std::optional<DecodedGop> DecodeAhead::next() {
+  if (pending_.empty()) return std::nullopt;
+  Pending oldest = std::move(pending_.front());
+  pending_.pop_front();
+  DecodedGop gop = oldest.gop.get();
+  idle_.push_back(std::move(oldest.worker));
+  start_next();
+  return gop;
+}
+
+}  // namespace tvg::cli
