@@ -20,7 +20,8 @@ class DecodeThreads : public ToolTest {
       for (std::size_t at = err.find("several"); at != std::string::npos; at = err.find("several"))
         err.replace(at, 7, "one");
       EXPECT_EQ(err, one.err);
-      if (status == 0) EXPECT_EQ(folder_.read("several.pc2"), folder_.read("one.pc2")) << threads;
+      if (status != 0) continue;
+      EXPECT_EQ(folder_.read("several.pc2"), folder_.read("one.pc2")) << threads;
     }
   }
 };
