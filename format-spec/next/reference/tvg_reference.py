@@ -1,0 +1,922 @@
+#!/usr/bin/env python3
+"""A second decoder of TVG streams, written from format-spec/next/tvg.md alone: slow, plain and strict.
+
+It follows the order of the specification and uses its names. It does not recover from damage (§8.3): the first
+violation ends a stream. Python 3, standard library only.
+
+    python3 tvg_reference.py FILE.tvg...
+
+prints for each stream what corpus/conformance/digests.txt has of it: its name; its bytes; its frames; the vertices and
+the faces of its meshes, summed; and the XXH64 of all lattice indices (i32), positions (binary32) and faces (u32) in
+output order. A mesh counts when a frame has other faces or another number of vertices than the frame before it.
+
+    python3 tvg_reference.py --check FILE.tvg...
+
+prints for each stream "valid", or its first violation: the error (§8.4), the section that is violated, and what is
+wrong.
+
+Exit status: 0; 2 usage, or a file cannot be read; 3 a stream is not valid.
+"""
+import math
+import os
+import struct
+import sys
+from bisect import bisect_left
+
+class Invalid(Exception):
+    """The stream violates a section of the specification; error is one of those of §8.4."""
+    def __init__(self, error, section, what):
+        super().__init__(error.replace(' ', '-') + f" §{section}: {what}")
+        self.error, self.section = error, section
+
+def require(condition, section, what, error="malformed"):
+    """Refuse the stream unless the condition holds."""
+    if not condition:
+        raise Invalid(error, section, what)
+
+# 1. Terms and conventions
+NONE = 0xFFFFFFFF
+
+def clamp(x, a, b):
+    """The nearest value to x in a..b."""
+    return max(a, min(x, b))
+
+# 2. Primitive types
+class Reader:
+    """Reads the values of §2.1 and §2.2 from bytes; too few, or bytes left over, violate the section given."""
+    def __init__(self, data, section):
+        self.data, self.at, self.section = data, 0, section
+
+    def take(self, size):
+        require(size <= len(self.data) - self.at, self.section, "too few bytes")
+        self.at += size
+        return self.data[self.at - size:self.at]
+
+    def rest(self):
+        return self.take(len(self.data) - self.at)
+
+    def end(self):
+        require(self.at == len(self.data), self.section, "bytes left over (§4)")
+
+    def unsigned(self, size):  # 2.1 Fixed-size values
+        return int.from_bytes(self.take(size), "little")
+
+    def f64(self):
+        return struct.unpack("<d", self.take(8))[0]
+
+    def varint(self):  # 2.2 Varint
+        value = 0
+        for i in range(10):
+            byte = self.unsigned(1)
+            require(i < 9 or byte <= 1, "2.2", "varint of 2^64 or more")
+            value |= (byte & 0x7F) << (7 * i)
+            if byte < 0x80:
+                require(byte > 0 or i == 0, "2.2", "varint is not in its shortest form")
+                return value
+
+# 2.3 Checksum
+MASK = 2 ** 64 - 1
+P1, P2, P3 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9
+P4, P5 = 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
+
+def rotl(x, r):
+    x &= MASK
+    return (x << r | x >> (64 - r)) & MASK
+
+def xxh_round(acc, lane):
+    return rotl(acc + lane * P2, 31) * P1 & MASK
+
+def xxh64(data, seed=0):
+    """The 64-bit hash XXH64."""
+    at = len(data) // 32 * 32
+    h = seed + P5
+    if at > 0:
+        v = [seed + P1 + P2, seed + P2, seed, seed - P1]
+        for block in struct.iter_unpack("<4Q", data[:at]):
+            v = [xxh_round(acc, lane) for acc, lane in zip(v, block)]
+        h = sum(rotl(acc, r) for acc, r in zip(v, (1, 7, 12, 18)))
+        for acc in v:
+            h = (h ^ xxh_round(0, acc)) * P1 + P4  # merge
+    h = h + len(data) & MASK
+    while len(data) - at >= 8:
+        h = rotl(h ^ xxh_round(0, struct.unpack_from("<Q", data, at)[0]), 27) * P1 + P4 & MASK
+        at += 8
+    if len(data) - at >= 4:
+        h = rotl(h ^ struct.unpack_from("<I", data, at)[0] * P1, 23) * P2 + P3 & MASK
+        at += 4
+    for byte in data[at:]:
+        h = rotl(h ^ byte * P5, 11) * P1 & MASK
+    h = (h ^ h >> 33) * P2 & MASK
+    h = (h ^ h >> 29) * P3 & MASK
+    return h ^ h >> 32
+
+def checksum(data, seed=0):
+    return xxh64(data, seed) & 0xFFFFFFFF
+
+# 3. The stream
+SIGNATURE = bytes.fromhex("8B5456470D0A1A0A")
+ANCILLARY = {b"HEAD": 0, b"META": 1, b"DATA": 1, b"MESH": 0, b"PLAN": 0, b"GOP ": 0, b"INDX": 1, b"TAIL": 0}  # 3.2
+
+# 3.4 Order of chunks: for each state the next one, by the chunk.
+COLUMNS = (*ANCILLARY, "ancillary", "critical", "no more bytes")
+BAD, VERSION = "malformed", "unsupported version"
+ORDER = {
+    "start": ("open", BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, "truncated"),
+    "open": (BAD, "open", "open", "body", BAD, BAD, "indexed", BAD, "open", VERSION, "truncated"),
+    "body": (BAD, "body", "body", "body", "body", "body", "indexed", BAD, "body", VERSION, "truncated"),
+    "indexed": (BAD, BAD, BAD, BAD, BAD, BAD, BAD, "ended", "indexed", VERSION, "truncated"),
+    "ended": (BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, "complete"),
+}
+LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30}  # §8.1, by key of §4.1
+MESH_ENTRY, PLAN_ENTRY, GOP_ENTRY = 1, 2, 3  # kinds of §4.6
+SPACE, TIME, ELP = 0, 1, 2  # predictors of §7.2
+
+def unknown_text(key):
+    """3.5: what is even may be skipped."""
+    return f"number {key} is required and not known"
+
+class Mesh:
+    """A mesh in force (4.3); number: that of its latest entry of the index among the meshes', from 1."""
+    def __init__(self, V, faces, gates, order):
+        self.V, self.gates, self.order, self.number = V, gates, order, 0
+        self.faces = [tuple(order[corner] for corner in face) for face in faces]  # in output order
+
+class Decoder:
+    """Decodes one stream; the results are in its fields."""
+    def __init__(self, data):
+        self.data, self.metadata, self.named_data, self.frames = data, {}, {}, 0
+        self.meshes, self.plans = {}, {}  # in force, by id; the latest comes last (4.3, 4.9)
+        self.index = []  # what INDX should hold: (kind, offset of the chunk, fields)
+        self.shown, self.shown_vertices, self.shown_faces = None, 0, 0  # the mesh of the last frame; sums
+        self.face_bytes, self.index_bytes, self.position_bytes = bytearray(), bytearray(), bytearray()
+
+    def facts(self):
+        """What digests.txt says of the stream, without its name."""
+        hashed = self.index_bytes, self.position_bytes, self.face_bytes
+        digests = [f"{xxh64(bytes(values)):016x}" for values in hashed]
+        return " ".join(map(str, (len(self.data), self.frames, self.shown_vertices, self.shown_faces, *digests)))
+
+    def decode(self):
+        """3.1 Signature, and 3.4 Order of chunks."""
+        hint = " (damaged by a transfer in text mode?)" if self.data[:4] == SIGNATURE[:4] else ""
+        require(SIGNATURE.startswith(self.data[:8]), "3.1", "wrong signature" + hint, "not TVG")
+        require(len(self.data) >= 8, "3.4", "the stream ends in the signature", "truncated")
+        at, state, index_at = 8, "start", None
+        parse = {b"HEAD": self.head, b"META": self.meta, b"DATA": self.data_chunk, b"MESH": self.mesh,
+                 b"PLAN": self.plan, b"GOP ": self.gop}
+        while at < len(self.data):
+            require(state != "ended", "3.4", "bytes behind TAIL")
+            offset = at
+            kind, ancillary, payload_at, at = self.chunk_header(offset)
+            known = kind in ANCILLARY
+            column = kind if known else "ancillary" if ancillary else "critical"
+            following = ORDER[state][COLUMNS.index(column)]
+            require(following != BAD, "3.4", f"chunk {kind} in the state {state}")
+            require(following != VERSION, "3.2", f"unknown chunk {kind}", VERSION)
+            require(not known or ancillary == ANCILLARY[kind], "3.2", f"wrong ancillary flag of chunk {kind}")
+            payload, payload_checksum = self.payload(kind, payload_at, at)
+            if kind == b"INDX":
+                self.indx(payload)
+                index_at = offset
+            elif kind == b"TAIL":
+                self.tail(payload, offset - index_at)
+            elif known:
+                parse[kind](payload, payload_checksum, offset)
+            state = following
+        require(state == "ended", "3.4", f"the stream ends in the state {state}", "truncated")
+
+    def chunk_header(self, at):
+        """3.2 Chunks. Returns type, ancillary bit, offset of the payload, offset of the next chunk."""
+        require(at + 16 <= len(self.data), "3.4", "the stream ends in a chunk header", "truncated")
+        kind, chunk_flags, length, header_checksum = struct.unpack_from("<4s3I", self.data, at)
+        require(header_checksum == checksum(self.data[at:at + 12]), "3.2", "wrong header checksum")
+        require(all(0x20 <= c <= 0x7E for c in kind), "3.2", "wrong characters of a chunk type")
+        require(chunk_flags <= 1, "3.2", "reserved flags are set")
+        require(length <= 2 ** 31 - 1, "3.2", "length of a chunk")
+        return kind, chunk_flags, at + 16, at + 16 + length + 4
+
+    def payload(self, kind, at, end):
+        """3.3 Payload checksums. Returns the payload and its checksum."""
+        require(end <= len(self.data), "3.4", "the stream ends in a chunk", "truncated")
+        payload, payload_checksum = self.data[at:end - 4], int.from_bytes(self.data[end - 4:end], "little")
+        require(payload_checksum == checksum(payload), "3.3", f"wrong payload checksum of chunk {kind}",
+                "checksum-mismatch")
+        return payload, payload_checksum
+
+    # 4. Payloads
+    def head(self, payload, *_):
+        """4.1 HEAD."""
+        require(len(payload) <= 2 ** 16, "4.1", "size of the payload")
+        reader, bounds, last = Reader(payload, "4.1"), {}, -1
+        major, minor = reader.unsigned(2), reader.unsigned(2)
+        require((major, minor) == (0, 2), "4.1", f"version {major}.{minor}, not 0.2", VERSION)
+        while reader.at < len(payload):
+            key, value = reader.varint(), reader.varint()
+            require(key > last, "3.5", "keys do not ascend")
+            require(key in (1, 3, 5, 7, 9, 11, 13) or key % 2 == 0, "4.1", unknown_text(key), VERSION)
+            bounds[key] = value
+            last = key
+        for key in (1, 3, 5, 7, 9, 11, 13):
+            require(key in bounds, "4.1", f"key {key} is missing")
+            require(bounds[key] < (2 ** 63 if key == 9 else 2 ** 32), "4.1", f"value of key {key}")
+        require(1 <= bounds[11] <= 65536, "4.1", "meshes")
+        self.vertices, self.faces, self.frames_per_gop, self.packet_bytes = (bounds[key] for key in (1, 3, 5, 7))
+        self.meshes_in_force, self.mesh_bytes = bounds[11], bounds[13]
+        # 8.2 Memory
+        memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes + self.mesh_bytes
+        memory += (self.meshes_in_force - 1) * (24 * self.vertices + 16 * self.faces)
+        require(bounds[9] >= memory, "4.1", "decoder_memory")
+        for key, limit in LIMITS.items():
+            require(bounds[key] <= limit, "8.1", f"key {key}: more than this decoder allows", "limit-exceeded")
+
+    def meta(self, payload, *_):
+        """4.2 META."""
+        require(len(payload) <= 2 ** 20, "4.2", "size of the metadata")
+        reader, metadata, last = Reader(payload, "4.2"), {}, b""
+        count = reader.varint()
+        require(count <= (len(payload) - reader.at) // 2, "4.2", "number of entries")
+        for _ in range(count):
+            key, value = reader.take(reader.varint()), reader.take(reader.varint())
+            require(key > last, "4.2", "keys are empty or do not ascend")
+            metadata[text(key, "4.2")] = text(value, "4.2")
+            last = key
+        reader.end()
+        self.metadata = metadata
+
+    def mesh(self, payload, identity, offset):
+        """4.3 MESH."""
+        require(len(payload) <= self.mesh_bytes, "4.3", "size of a mesh's payload", "limit-exceeded")
+        mesh = self.meshes.pop(identity, None) or self.read_mesh(payload)
+        self.meshes[identity] = mesh
+        if len(self.meshes) > self.meshes_in_force:
+            del self.meshes[next(iter(self.meshes))]
+        self.index.append((MESH_ENTRY, offset, ()))
+        mesh.number = self.entries(MESH_ENTRY)
+
+    def read_mesh(self, payload):
+        reader, sections, last = Reader(payload, "4.3"), {}, -1
+        V, F = reader.varint(), reader.varint()
+        require(1 <= V <= 2 ** 31 - 1, "4.3", "vertex_count")
+        require(F <= 2 ** 31 - 1, "4.3", "face_count")
+        require(V <= self.vertices and F <= self.faces, "4.1", "size of a mesh", "limit-exceeded")
+        while reader.at < len(payload):
+            kind, section = reader.varint(), reader.take(reader.varint())
+            require(kind > last, "3.5", "kinds of sections do not ascend")
+            sections[kind] = section
+            last = kind
+        require(1 in sections, "4.3", "no connectivity")
+        for kind in sections:
+            require(kind in (1, 3) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+        require(V + F <= 128 * len(sections[1]) and F <= 2 ** 30, "5.1", "too many vertices or faces",
+                "limit-exceeded")
+        faces, gates = Connectivity(RangeDecoder(sections[1], "5.1"), V, F).decode()
+        return Mesh(V, faces, gates, vertex_order(sections[3], gates) if 3 in sections else list(range(V)))
+
+    def entries(self, kind):
+        """How many entries of a kind the index has so far."""
+        return sum(entry[0] == kind for entry in self.index)
+
+    def gop(self, payload, _, offset):
+        """4.5 GOP."""
+        reader, number = Reader(payload, "4.5"), 0
+
+        def packet(seed):
+            """Kind, content and checksum of the next packet."""
+            at = reader.at
+            kind, size = reader.unsigned(1), reader.varint()
+            require(size <= self.packet_bytes, "4.1", "size of a packet", "limit-exceeded")
+            content = reader.take(size)
+            covered, packet_checksum = payload[at:reader.at], reader.unsigned(4)
+            require(packet_checksum == checksum(covered, seed), "4.5", "wrong packet checksum", "checksum-mismatch")
+            return kind, content, packet_checksum
+
+        kind, content, header_checksum = packet(0)
+        require(kind == 0, "4.5", "the first packet is no header")
+        header = Header(content, self)
+        mesh = self.meshes[header.mesh]
+        backs = [self.entries(PLAN_ENTRY) + 1 - self.plans[plane] for plane in header.planes]
+        fields = (header.frame_count, self.entries(MESH_ENTRY) + 1 - mesh.number, len(backs), *backs)
+        self.index.append((GOP_ENTRY, offset, fields))
+        header.elp(mesh)
+
+        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits)
+        hashed, digested, decoded = bytearray(), False, 0
+        while number < header.packet_count:
+            number += 1
+            kind, content, _ = packet(header_checksum * 2 ** 32 + number)
+            if 128 <= kind:
+                continue
+            if kind == 1:
+                require(not digested, "4.5", "a second digest")
+                require(decoded == header.frame_count, "4.5", "the digest comes before the last frame")
+                self.digest(header, content, bytes(hashed))
+                digested = True
+                continue
+            require(kind != 0, "4.5", "a second header")
+            require(32 <= kind <= 34, "4.5", f"packets of kind {kind} are not known", "unsupported")
+            require(decoded < header.frame_count, "4.5", "more frames than frame_count")
+            require(decoded > 0 or kind == 32, "4.5.2", "the first frame is not predicted by space")
+            frames.frame(RangeDecoder(header.positions(content), "7.5"), kind - 32)
+            decoded += 1
+            hashed += b"".join(struct.pack("<3i", *index) for index in frames.X)
+            self.output(mesh, frames, header)
+        require(digested, "4.5", "no digest")
+        reader.end()
+
+    def digest(self, header, content, values):
+        """4.5.3 The digest packet, and 7.6 The digest."""
+        reader = Reader(content, "4.5.3")
+        for channel in header.channels:
+            require(reader.varint() == channel, "4.5.3", "channels of the digest")
+            expected = reader.unsigned(8)
+            require(channel != 1 or expected == xxh64(values), "7.6", "wrong digest", "digest-mismatch")
+        reader.end()
+
+    def output(self, mesh, frames, header):
+        """Give out one frame, in output order (4.3)."""
+        if self.shown is None or (mesh.V, mesh.faces) != (self.shown.V, self.shown.faces):
+            self.shown_vertices += mesh.V
+            self.shown_faces += len(mesh.faces)
+            self.face_bytes += b"".join(struct.pack("<3I", *face) for face in mesh.faces)
+        indices, positions = [b""] * mesh.V, [b""] * mesh.V
+        for v, place in enumerate(mesh.order):
+            index = [x >> frames.shift[v] for x in frames.X[v]]
+            indices[place] = struct.pack("<3i", *index)
+            edge = header.step * 2.0 ** frames.shift[v]
+            positions[place] = struct.pack("<3f", *(position(o, i, edge) for o, i in zip(header.origin, index)))
+        self.index_bytes += b"".join(indices)
+        self.position_bytes += b"".join(positions)
+        self.frames += 1
+        self.shown = mesh
+
+    def indx(self, payload):
+        """4.6 INDX."""
+        require(len(payload) <= 2 ** 20 + 1024 * len(self.index), "4.6", "size of the index")
+        reader, offset, entries = Reader(payload, "4.6"), 0, []
+        count = reader.varint()
+        require(count <= (len(payload) - reader.at) // 3, "4.6", "number of entries")
+        for _ in range(count):
+            kind, distance = reader.varint(), reader.varint()
+            fields, values = Reader(reader.take(reader.varint()), "4.6"), []
+            offset += distance
+            require(distance >= 1 and offset <= 2 ** 62, "4.6", "distance")
+            if kind in (1, 2, 3, 4):
+                while fields.at < len(fields.data):
+                    values.append(fields.varint())
+                entries.append((kind, offset, tuple(values)))
+        reader.end()
+        require(entries == self.index, "4.6", "the index does not match the stream")
+
+    def tail(self, payload, distance):
+        """4.7 TAIL."""
+        reader = Reader(payload, "4.7")
+        require(reader.unsigned(8) == distance, "4.7", "distance to INDX")
+        reader.end()
+
+    def data_chunk(self, payload, *_):
+        """4.8 DATA."""
+        require(len(payload) <= 2 ** 26 + 2048, "4.8", "size of the payload", "limit-exceeded")
+        reader = Reader(payload, "4.8")
+        size = reader.varint()
+        require(1 <= size <= 1024, "4.8", "size of the name")
+        name, encoding, decoded_size = text(reader.take(size), "4.8"), reader.unsigned(1), reader.varint()
+        require(decoded_size <= 2 ** 26, "4.8", "decoded_size", "limit-exceeded")
+        content = reader.rest()
+        require(len(content) <= decoded_size, "4.8", "more bytes than decoded_size")
+        require(encoding != 0 or len(content) == decoded_size, "4.8", "fewer bytes than decoded_size")
+        self.named_data[name] = (encoding, decoded_size, content)
+
+    def plan(self, payload, identity, offset):
+        """4.9 PLAN."""
+        reader = Reader(payload, "4.9")
+        require(reader.unsigned(4) in self.meshes, "4.9", "the mesh is not in force")
+        reader.varint()  # adds_to
+        require(reader.varint() != 0, "4.9", "mode elp shares nothing")
+        self.index.append((PLAN_ENTRY, offset, ()))
+        number = self.entries(PLAN_ENTRY)
+        self.plans[identity] = number
+        self.plans = {plane: latest for plane, latest in self.plans.items() if latest > number - 256}
+
+def text(data, section):
+    """Text as in 4.2."""
+    require(b"\0" not in data, section, "U+0000 in a text")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        require(False, section, "not UTF-8")
+
+class Header:
+    """4.5.1 The header packet: first what does not depend on the mode."""
+    def __init__(self, content, decoder):
+        self.reader = reader = Reader(content, "4.5.1")
+        self.mesh = reader.unsigned(4)
+        require(self.mesh in decoder.meshes, "4.5.1", "the mesh is not in force")
+        self.first_frame, self.frame_count, self.packet_count = (reader.varint() for _ in range(3))
+        require(self.first_frame <= 2 ** 62, "4.5.1", "first_frame")
+        require(self.frame_count >= 1, "4.5.1", "frame_count")
+        require(self.frame_count <= decoder.frames_per_gop, "4.1", "frames of a GOP", "limit-exceeded")
+        require(self.frame_count + 1 <= self.packet_count <= 2 ** 31 - 1, "4.5.1", "packet_count")
+        planes = reader.varint()
+        require(planes <= 256, "4.5.1", "planes")
+        self.planes = [reader.unsigned(4) for _ in range(planes)]
+        require(all(plane in decoder.plans for plane in self.planes), "4.5.1", "a plane is not in force")
+        self.mode = reader.varint()
+
+    def elp(self, mesh):
+        """The fields of mode elp."""
+        reader = self.reader
+        require(self.mode == 0, "4.5.1", f"mode {self.mode}", "unsupported")
+        require(not self.planes, "4.5.1", "mode elp has no planes")
+        count = reader.varint()
+        require(1 <= count <= 256, "4.5.1", "number of channels")
+        self.channels = [reader.varint() for _ in range(count)]
+        require(all(a < b for a, b in zip(self.channels, self.channels[1:])), "3.5", "channels do not ascend")
+        require(self.channels[0] == 1, "4.5.1", "the first channel is not positions")
+        self.fine_bits, self.coarse_bits = reader.unsigned(1), reader.unsigned(1)
+        require(1 <= self.fine_bits <= 24, "4.5.1", "fine_bits")
+        require(1 <= self.coarse_bits <= self.fine_bits, "4.5.1", "coarse_bits")
+        self.origin, self.step = [reader.f64() for _ in range(3)], reader.f64()
+        require(all(map(math.isfinite, self.origin)), "4.5.1", "origin")
+        require(math.isfinite(self.step) and self.step > 0, "4.5.1", "step")
+        for channel in self.channels[1:]:
+            require(channel % 2 == 0, "4.5.1", unknown_text(channel), "unsupported")
+        self.fine = flags(reader.rest(), mesh.gates, self.fine_bits == self.coarse_bits)
+
+    def positions(self, content):
+        """4.5.2 A frame's packet: the piece of channel 1, which is the first."""
+        reader, pieces = Reader(content, "4.5.2"), []
+        for _ in self.channels[1:]:
+            pieces.append(reader.take(reader.varint()))
+        return (pieces + [reader.rest()])[0]
+
+# 5. The mesh
+class Edge:
+    """A border edge; its field "from" is called start. Its own number is kept too."""
+    def __init__(self, start, to, across, number):
+        self.start, self.to, self.across, self.number, self.open = start, to, across, number, True
+        self.previous = self.next = self
+
+def link(x, y):
+    x.next, y.previous = y, x
+
+def insert_before(edge, e):
+    link(edge.previous, e)
+    link(e, edge)
+
+def meets_previous(e):
+    return e.previous.to == e.start and e.previous.start != e.to
+
+def meets_next(e):
+    return e.next.start == e.to and e.next.to != e.start
+
+class Connectivity:
+    """5.1 Connectivity. Where the specification has numbers of edges, there are the edges themselves here."""
+    def __init__(self, coder, V, F):
+        self.coder, self.V, self.F = coder, V, F
+        # 5.1.1 State
+        self.faces, self.gates, self.edges, self.degree, self.edge_at = [], [], [], [0] * V, [None] * V
+        # 5.1.2 Models
+        self.op_coarse, self.op_fine = [Symbol(6) for _ in range(125)], [Symbol(6) for _ in range(320)]
+        self.near = Symbol(weights=(2000, 2000, 15000, 15000, 5000, 5000, 2500, 2500, 1500, 1500, 1000, 1000, 500, 500,
+                                    10535, 0))
+        self.known = [Bit() for _ in range(3)]
+
+    def open(self, start, to, across):
+        edge = Edge(start, to, across, len(self.edges))
+        self.edges.append(edge)
+        self.edge_at[start] = edge
+        self.edge_at[to] = self.edge_at[to] or edge
+        return edge
+
+    def close(self, edge):
+        before, after = edge.previous, edge.next
+        edge.open = False
+        link(before, after)
+        if self.edge_at[edge.start] is edge:
+            self.edge_at[edge.start] = before if before is not edge and before.to == edge.start else None
+        if self.edge_at[edge.to] is edge:
+            self.edge_at[edge.to] = after if after is not edge and after.start == edge.to else None
+
+    def splice(self, incoming, known):
+        other = known.previous if known.start == incoming.to else known
+        x, y = incoming.next, other.next
+        link(incoming, y)
+        link(other, x)
+
+    def last_open(self):
+        while self.edges and not self.edges[-1].open:
+            self.edges.pop()
+        return self.edges[-1] if self.edges else None
+
+    def add_vertex(self, gate):
+        require(len(self.gates) < self.V, "5.1.1", "too many vertices")
+        self.gates.append(gate)
+
+    def add_face(self, *corners):
+        self.faces.append(corners)
+        for v in corners:
+            self.degree[v] = min(self.degree[v] + 1, 8)
+
+    def decode(self):
+        """5.1.3 Main loop. Returns faces and gates."""
+        while len(self.faces) < self.F:
+            e = self.last_open()
+            if e is None:
+                self.root()
+            else:
+                self.step(e)
+        self.gates += [(NONE, NONE, NONE)] * (self.V - len(self.gates))
+        self.padding()
+        self.coder.finish()
+        return self.faces, self.gates
+
+    def root(self):
+        """5.1.4 Root triangle."""
+        n, p, c = NONE, NONE, [NONE] * 3
+        for i in range(3):
+            if self.gates and self.coder.bit(self.known[i]):
+                c[i] = self.any_vertex()
+            else:
+                c[i] = len(self.gates)
+                self.add_vertex((n, p, NONE))
+            if i == 0:
+                n = c[0]
+            if i == 1 and c[1] != c[0]:
+                p = c[1]
+        self.add_face(*c)
+        if len(set(c)) == 3:
+            e0, e1, e2 = self.open(c[0], c[1], c[2]), self.open(c[1], c[2], c[0]), self.open(c[2], c[0], c[1])
+            link(e0, e1)
+            link(e1, e2)
+            link(e2, e0)
+
+    def any_vertex(self):
+        value = self.coder.bits((len(self.gates) - 1).bit_length())
+        require(value < len(self.gates), "5.1.4", "a vertex that has not been seen")
+        return value
+
+    def step(self, e):
+        """5.1.5 A step over a border edge."""
+        a, b, o, prev, nxt = e.start, e.to, e.across, e.previous, e.next
+        situation = meets_previous(e) + 2 * meets_next(e)
+        if situation == 3 and prev.start == nxt.to:
+            situation = 4
+        A, B = self.degree[a], self.degree[b]
+        coarse = (situation * 5 + clamp(A, 3, 7) - 3) * 5 + clamp(B, 3, 7) - 3
+        op = self.coder.symbol(self.op_coarse[coarse], self.op_fine[(situation * 8 + A - 1) * 8 + B - 1])
+        require(op < 6, "5.1.2", "operation")
+        new, to_previous, to_next, reference, boundary = op == 0, op in (1, 3), op in (2, 3), op == 4, op == 5
+        if boundary:
+            self.close(e)
+            return
+        require(meets_previous(e) or not to_previous, "5.1.5", "the previous edge does not meet")
+        require(meets_next(e) or not to_next, "5.1.5", "the next edge does not meet")
+        if new:
+            v = len(self.gates)
+            self.add_vertex((a, b, o))
+        elif reference:
+            v = self.near_vertex(e)
+        else:
+            v = prev.start if to_previous else nxt.to
+        require(v == nxt.to or not (to_previous and to_next), "5.1.5", "close")
+        require(v not in (a, b), "5.1.5", "degenerate triangle")
+        self.add_face(b, a, v)
+        known_edge = self.edge_at[v] if reference else None
+        if not to_previous:
+            incoming = self.open(a, v, b)
+            insert_before(e, incoming)
+        if not to_next:
+            insert_before(e, self.open(v, b, a))
+        self.close(e)
+        if to_previous:
+            self.close(prev)
+        if to_next:
+            self.close(nxt)
+        if known_edge:
+            self.splice(incoming, known_edge)
+
+    def near_vertex(self, e):
+        x, y, candidate = e, e, []
+        for _ in range(7):
+            x, y = x.next, y.previous
+            candidate += [x.to, y.start]
+        s = self.coder.symbol(self.near)
+        require(s < 15, "5.1.2", "symbol of near")
+        return candidate[s] if s < 14 else self.any_vertex()
+
+    def padding(self):
+        """5.1.6 Padding."""
+        if self.coder.raw(1):
+            require(self.coder.bits((self.V + self.F + 15) // 16) == 0, "5.1.6", "padding")
+
+def vertex_order(data, gates):
+    """5.2 Vertex order."""
+    require(data and data[0] <= 2, "5.2", "mode")
+    unused = list(range(len(gates)))  # ascending: rank(x) is bisect_left, select(r) is unused[r]
+    if data[0] == 0:
+        require(len(data) == 1, "5.2", "bytes behind mode 0")
+        return unused
+    coder = RangeDecoder(data[1:], "5.2")
+    order = (near_order if data[0] == 1 else uniform_order)(coder, gates, unused)
+    coder.finish()
+    return order
+
+def near_order(coder, gates, unused):
+    """5.2.1 Near."""
+    choice, below, length = [Symbol(5) for _ in range(5)], [Bit() for _ in range(5)], [Symbol(16) for _ in range(5)]
+    order, last, V = [], 0, len(gates)
+
+    def number(model):
+        k = coder.symbol(model)
+        if k == 15:
+            k += coder.raw(5)
+        require(k <= 32, "5.2.1", "number")
+        return k if k <= 1 else 2 ** (k - 1) + coder.bits(k - 1)
+
+    for i, (n, p, o) in enumerate(gates):
+        r = [bisect_left(unused, order[w]) if w != NONE else 0 for w in (i - 1 if i > 0 else NONE, n, p, o)]
+        r.append(bisect_left(unused, clamp(order[n] + order[p] - order[o], 0, V)) if o != NONE else 0)
+        last = coder.symbol(choice[last])
+        require(last < 5, "5.2.1", "choice")
+        is_below = coder.bit(below[last])
+        d = number(length[last])
+        require(d < (r[last] if is_below else V - i - r[last]), "5.2.1", "rank")
+        order.append(unused.pop(r[last] - 1 - d if is_below else r[last] + d))
+    return order
+
+def uniform_order(coder, gates, unused):
+    """5.2.2 Uniform."""
+    def uniform(bound):
+        k = bound.bit_length() - 1
+        u, value = 2 ** (k + 1) - bound, coder.bits(k)
+        return value if value < u else 2 * value + coder.raw(1) - u
+
+    return [unused.pop(uniform(len(unused))) for _ in gates]
+
+# 6. Entropy coding
+class RangeDecoder:
+    """6.1 The range coder. user: the section whose stream this is, for messages."""
+    def __init__(self, data, user):
+        self.data, self.user, self.range, self.shifted = data, user, 2 ** 32 - 1, 0
+        self.code = int.from_bytes(data[:4].ljust(4, b"\0"), "big")
+
+    def check(self, condition, what):
+        require(condition, "6.1", f"{what}, in the stream of §{self.user}")
+
+    def next_bit(self):
+        byte, bit = divmod(32 + self.shifted, 8)
+        self.shifted += 1
+        self.check(self.shifted <= 8 * len(self.data), "more bits are used than there are")
+        return self.data[byte] >> (7 - bit) & 1 if byte < len(self.data) else 0
+
+    def interval(self, low, frequency):
+        unit = self.range >> 15
+        self.code -= unit * low
+        self.range = unit * frequency
+        while self.range < 2 ** 31:
+            self.range *= 2
+            self.code = 2 * self.code + self.next_bit()
+
+    def target(self):
+        t = self.code // (self.range >> 15)
+        self.check(t < 2 ** 15, "code out of range")
+        return t
+
+    def symbol(self, a, b=None):
+        """An adaptive symbol, coded with models a and b, or with a taken twice."""
+        first, second = a.c, (b or a).c
+        t, s, low, high = self.target(), 0, 0, (first[1] + second[1] + 1 >> 1) + 4
+        while high <= t:
+            s, low = s + 1, high
+            high = (first[s + 1] + second[s + 1] + 1 >> 1) + 4 * (s + 1) if s < 15 else 2 ** 15
+        self.interval(low, high - low)
+        a.adapt(s)
+        if b is not None and b is not a:
+            b.adapt(s)
+        return s
+
+    def bit(self, model):
+        """An adaptive bit."""
+        zero = model.zero()
+        value = self.target() >= zero  # the same as code >= (range >> 15) * zero
+        self.interval(*((zero, 2 ** 15 - zero) if value else (0, zero)))
+        model.adapt(value)
+        return value
+
+    def raw(self, k):
+        v = self.target() >> (15 - k)
+        self.interval(v << (15 - k), 1 << (15 - k))
+        return v
+
+    def bits(self, k):
+        value = 0
+        while k > 0:
+            m = min(k, 15)
+            k -= m
+            value = value * 2 ** m + self.raw(m)
+        return value
+
+    def finish(self):
+        length = len(self.data)
+        self.check(length == (self.shifted + 8) // 8, "wrong length")
+        self.check(self.data[-1] % 2 ** (8 * length - self.shifted - 1) == 0, "the last bits are not zero")
+        self.check(self.code < 2 ** 31, "the last interval is not settled")
+
+# 6.2 Adaptive models
+class Bit:
+    """An adaptive bit."""
+    def __init__(self):
+        self.fast, self.slow, self.count = 0x8000, 0x8000, 0
+
+    def zero(self):
+        m = (self.fast + self.slow) >> 2
+        return m - (m >> 9) + 32
+
+    def adapt(self, bit):
+        r = min(4 + (self.count >> 2), 7)
+        self.fast += -(self.fast >> 4) if bit else (0xFFFF - self.fast) >> 4
+        self.slow += -(self.slow >> r) if bit else (0xFFFF - self.slow) >> r
+        self.count = min(self.count + 1, 12)
+
+def start(weights):
+    """The first state of an adaptive symbol with 16 weights that sum up to one of N, or to 65535."""
+    return [(2 ** 15 - 64) * sum(weights[:i]) // sum(weights) for i in range(16)]
+
+EVEN = {N: start([1] * N + [0] * (16 - N)) for N in range(2, 17)}
+
+class Symbol:
+    """An adaptive symbol: of N equally likely ones, or with 16 weights."""
+    S = 2 ** 15 - 64
+
+    def __init__(self, N=16, weights=None):
+        self.count = 0
+        self.c = start(weights) if weights else EVEN[N][:]
+
+    def adapt(self, s):
+        rate = 2 + (self.count >= 2) + (self.count >= 6) + (self.count >= 16) + (self.count >= 32)
+        S, c = self.S, self.c
+        self.c = [x + ((S if i > s else 0) - x >> rate) for i, x in enumerate(c)]
+        self.count = min(self.count + 1, 32)
+
+# 7. Frames
+LARGEST = (2 - 2.0 ** -23) * 2.0 ** 127  # the largest finite binary32
+
+def position(origin, i, edge):
+    """7.1 The position of lattice index i in one axis; instead of an infinite binary32, the largest finite one."""
+    return clamp(origin + (i + 0.5) * edge, -LARGEST, LARGEST)
+
+class Level:
+    """The models of one level of one set (7.3.1)."""
+    def __init__(self):
+        self.first, self.second = [Symbol(16) for _ in range(15)], [Symbol(16) for _ in range(15)]
+        self.longer = [Bit() for _ in range(27)]
+
+THRESHOLDS = (2, 3, 6, 9, 12, 18, 24, 33, 45, 60, 81, 108, 144, 190, 252)
+
+def sgn2(x):
+    return clamp(x, -2, 2) + 2
+
+def sgn1(x):
+    return clamp(x, -1, 1) + 1
+
+def half(x):
+    """trunc(x / 2)."""
+    return x // 2 if x >= 0 else -(-x // 2)
+
+class Frames:
+    """The frames of one GOP."""
+    def __init__(self, gates, fine, fine_bits, coarse_bits):
+        self.gates, self.fine = gates, fine
+        self.B2, self.D = fine_bits, fine_bits - coarse_bits
+        self.shift = [0 if is_fine else self.D for is_fine in fine]
+        self.X, self.before = None, None  # padded indices of this frame and of the one before
+        self.R = [[0, 0, 0] for _ in gates]
+        self.levels = {}  # by set and level, made when they are first used
+
+    def frame(self, coder, predictor):
+        """7.5 A frame, from a range-coder stream."""
+        self.before, self.X, self.predictor = self.X, [[0, 0, 0] for _ in self.gates], predictor
+        for v, shift in enumerate(self.shift):
+            for axis in range(3):
+                prediction, model_set, activity, first, second = self.predict(v, axis)
+                level = sum(activity >= threshold for threshold in THRESHOLDS)
+                if (model_set, level) not in self.levels:
+                    self.levels[model_set, level] = Level()
+                value = residual(coder, level, self.levels[model_set, level], first, second)
+                index = prediction + value
+                require(0 <= index < 2 ** (self.B2 - shift), "7.5", "an index outside its lattice")
+                self.X[v][axis], self.R[v][axis] = index << shift, value << shift
+        coder.finish()
+
+    def predict(self, v, axis):
+        """Prediction, set, activity, first and second for a vertex in an axis."""
+        (n, p, o), shift, R_v, predictor = self.gates[v], self.shift[v], self.R[v][axis], self.predictor
+
+        def now(w):
+            return self.X[w][axis] >> shift
+
+        def before(w):
+            return self.before[w][axis] >> shift
+
+        def motion(w):
+            return now(w) - before(w)
+
+        # 7.2 Predictors
+        if o == NONE:
+            if predictor == SPACE:
+                near = n if n != NONE else v - 1
+                prediction = now(near) if near >= 0 else 2 ** (self.B2 - 1) >> shift
+            else:
+                prediction = before(v) + (motion(n) if predictor == ELP and n != NONE else 0)
+            activity = 8 * abs(R_v) if self.before else 64 if n != NONE else 255
+            return prediction, 0, activity >> shift, 7, 6 + sgn1(R_v)
+        if predictor == SPACE:
+            prediction, lean = now(n) + now(p) - now(o), 0
+        elif predictor == TIME:
+            prediction, lean = before(v), -motion(n) - motion(p)
+        else:
+            prediction = before(v) + motion(n) + motion(p) - motion(o)
+            lean = motion(n) + motion(p) - 2 * motion(o)
+
+        # 7.3.1 Which models
+        R_n, R_p, R_o = (self.R[w][axis] for w in (n, p, o))
+        fine_gate = [w for w in (n, p, o) if self.fine[w]]
+        h = len(fine_gate)
+        if self.D == 0 or (self.fine[v] and h == 3):
+            model_set = 0
+        else:
+            model_set = 1 + h if self.fine[v] else 4 if h == 0 else 5
+        activity = (2 * (abs(R_n) + abs(R_p)) + abs(R_o) + 3 * abs(R_v)) >> shift
+        first, second = 3 * sgn2(lean) + sgn1(R_n + R_p), 3 * sgn2(lean) + sgn1(R_v)
+        if model_set in (1, 2, 3) and predictor != SPACE:
+            if h == 0:
+                pull = lean >> 1
+            else:
+                mean = sum(motion(w) for w in fine_gate) >> (h - 1)
+                pull = sum(motion(w) - mean for w in (n, p) if not self.fine[w])
+                pull -= 0 if self.fine[o] else motion(o) - mean
+            pull >>= max(0, self.D - 2)
+            first = clamp(pull, -7, 7) + 7
+            if model_set != 3:
+                second = 3 * sgn2(half(pull + (pull > 0))) + sgn1(half(R_v))
+        return prediction, model_set, activity, first, second
+
+def residual(coder, level, models, first, second):
+    """7.3.2 The value."""
+    k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
+    s = coder.symbol(models.first[first], models.second[second])
+    high = s - 7 if s < 15 else escape(coder, models.longer)
+    return high if k == 0 else clamp(high * 2 ** k + coder.raw(k), -2 ** 27, 2 ** 27)
+
+def escape(coder, longer):
+    negative, length = coder.raw(1), 0
+    while length < 27 and coder.bit(longer[length]):
+        length += 1
+    size = min(2 ** length + coder.bits(length) + 7, 2 ** 27)
+    return -size if negative else size
+
+def flags(data, gates, one_lattice):
+    """7.4 Flags. Returns for each vertex whether it is fine."""
+    if one_lattice:
+        require(not data, "4.5.1", "flags where B1 = B2")
+        return [1] * len(gates)
+    coder = RangeDecoder(data, "7.4")
+    flag = flag_bits(coder, gates)
+    coder.finish()
+    return flag
+
+def flag_bits(coder, gates):
+    models, flag = [Bit() for _ in range(5)], []
+    for gate in gates:
+        flag.append(coder.bit(models[4 if gate[2] == NONE else sum(flag[w] for w in gate)]))
+    return flag
+
+def decode(path):
+    """Decode the stream in a file; the decoder holds what it is."""
+    with open(path, "rb") as file:
+        decoder = Decoder(file.read())
+    decoder.decode()
+    return decoder
+
+def main(arguments):
+    """Decode the files named by the arguments and print what is in them."""
+    paths = [argument for argument in arguments if argument != "--check"]
+    if not paths or any(path.startswith("-") for path in paths):
+        print("usage: tvg_reference.py [--check] FILE.tvg...", file=sys.stderr)
+        return 2
+    status = 0
+    for path in paths:
+        name = os.path.splitext(os.path.basename(path))[0]
+        try:
+            decoder = decode(path)
+            print(name, "valid" if "--check" in arguments else decoder.facts())
+        except Invalid as error:
+            print(name, error, file=sys.stdout if "--check" in arguments else sys.stderr)
+            status = 3
+        except OSError as error:
+            print(f"error: {error}", file=sys.stderr)
+            return 2
+    return status
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
