@@ -39,6 +39,17 @@ TEST_F(ToolTest, TheManualsDecoderExampleIsTheOneThatIsCompiledAndRuns) {
   EXPECT_NEAR(std::stod(frames.out), hand_.frames[0][0], 0.01);
 }
 
+TEST_F(ToolTest, TheManualsEncoderExampleIsTheOneThatIsCompiledAndRuns) {
+  const std::string page = read(std::string(TVG_PROJECT) + "/docs/library.md");
+  const std::string example = read(std::string(TVG_PROJECT) + "/tests/manual/encode_frames.cpp");
+  ASSERT_FALSE(example.empty());
+  EXPECT_NE(page.find("```cpp\n" + example + "```\n"), std::string::npos);
+
+  good(std::string(TVG_MANUAL_ENCODER) + " >rising.tvg && tvg verify rising.tvg -q");
+  const Outcome frames = good(std::string(TVG_MANUAL_EXAMPLE) + " <rising.tvg");
+  EXPECT_EQ(std::count(frames.out.begin(), frames.out.end(), '\n'), 90);
+}
+
 TEST_F(ToolTest, TheManualShowsTheVelocityCriterionAsItIs) {
   const std::string page = read(std::string(TVG_PROJECT) + "/docs/measure.md");
   const std::string code = read(std::string(TVG_PROJECT) + "/libcodec/measure/velocity.cpp");
@@ -92,7 +103,8 @@ TEST_F(ToolTest, TheManualsLinksLeadSomewhere) {
     const std::string text = read(page.string());
     for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
       const std::string target = text.substr(at + 2, text.find_first_of(")#", at + 2) - at - 2);
-      if (target.empty() || target.starts_with("http")) continue;
+      const bool code = target.find(' ') != std::string::npos;
+      if (target.empty() || code || target.starts_with("http")) continue;
       EXPECT_TRUE(std::filesystem::exists(page.parent_path() / target)) << target << " in " << page;
     }
   }

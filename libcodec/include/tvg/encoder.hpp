@@ -56,8 +56,9 @@ struct EncodeReport {
 /// the sink and the progress are only called from within them, and what they throw passes through.
 ///
 /// A call that fails with kWrongState (what comes out of turn), kInvalidArgument or kInvalidInput (what was
-/// given cannot be encoded) or kLimitExceeded for a mesh changes nothing: others may follow. After any other
-/// error the stream is lost, and every further call returns that error.
+/// given cannot be encoded) or kLimitExceeded for a mesh changes nothing: others may follow, but for a GOP
+/// whose box is too large for `step`, which is found when the GOP is complete (kInvalidArgument). After that
+/// and any other error the stream is lost, and every further call returns that error.
 class Encoder {
  public:
   Encoder(EncodeOptions options, ByteSink sink, EncodeProgress progress = {});
