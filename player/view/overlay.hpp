@@ -7,7 +7,7 @@
 #include <tvg/types.hpp>
 
 // Values per vertex that colour a mesh, in their own units; scale_values() brings them to a colour map
-// (cli/colour_map.hpp).
+// (tool/colour_map.hpp).
 namespace tvg::cli {
 
 /// 1 for important vertices and 0 for others, from Decoder::copy_flags(). `values`: [vertex], as many as

@@ -63,8 +63,14 @@ TEST_F(ExampleTest, DecodeToMemoryFindsTheSameFrameAgain) {
   EXPECT_EQ(text, "12 frames at 25 frames per second\nframe 7 again: the same\n");
 }
 
+TEST_F(ExampleTest, WhatEncodeWaveWritesPrintFramesPrints) {
+  const std::string text = output_of(TVG_EXAMPLES "/encode_wave | " TVG_EXAMPLES "/print_frames");
+  EXPECT_NE(text.find("mesh: 1089 vertices, 2048 faces\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nframe 59: "), std::string::npos) << text;
+}
+
 TEST(Examples, AreShort) {
-  for (const char* name : {"print_frames.c", "decode_to_memory.cpp"}) {
+  for (const char* name : {"encode_wave.c", "print_frames.c", "decode_to_memory.cpp"}) {
     std::ifstream file(std::string(TVG_EXAMPLE_SOURCES "/") + name);
     ASSERT_TRUE(file) << name;
     const auto lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
