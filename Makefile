@@ -51,7 +51,8 @@ sanitize:
 	@scripts/install_packages.sh build test
 	@$(CONFIGURE) asan-ubsan >/dev/null
 	$(call BUILD,build/asan-ubsan,$(if $(SANITIZE),--target $(addsuffix _tests,$(SANITIZE))))
-	@scripts/run_tests.sh build/asan-ubsan $(SANITIZE)
+	@LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.supp:print_suppressions=0 \
+	  scripts/run_tests.sh build/asan-ubsan $(SANITIZE)
 
 fuzz:
 	@scripts/install_packages.sh build check
