@@ -24,7 +24,7 @@ std::optional<Decoder::Event> Decoder::State::step() {
     case ChunkReader::Event::kHead:
       return Event::kHead;
     case ChunkReader::Event::kMetadata:
-      metadata = std::move(reader.metadata());
+      metadata = reader.take_metadata();
       return Event::kMetadata;
     case ChunkReader::Event::kMesh:
       return take_mesh();
@@ -68,12 +68,12 @@ std::optional<Decoder::Event> Decoder::State::take_mesh() {
     if (cause.code == ErrorCode::kOutOfMemory) {
       reader.fail(std::move(cause));
     } else {
-      frames.lose_unknown(std::move(cause));
+      frames_.lose_unknown(std::move(cause));
     }
     return std::nullopt;
   }
   mesh = std::move(*decoded);
-  if (!map_.note({IndexEntry::Kind::kMesh, reader.chunk_offset(), 0}, frames.position()))
+  if (!map_.note({IndexEntry::Kind::kMesh, reader.chunk_offset(), 0}, frames_.position()))
     reader.fail(out_of_memory());
   return Event::kMesh;
 }
@@ -81,8 +81,8 @@ std::optional<Decoder::Event> Decoder::State::take_mesh() {
 // format-spec §4.5
 std::optional<Decoder::Event> Decoder::State::begin_gop() {
   const GopHeader& header = reader.gop();
-  const std::uint64_t missing = frames.meet_gop(header.first_frame, header.frame_count, indexed_place());
-  if (target_ && frames.position() + missing + header.frame_count <= *target_) return pass_gop(missing);
+  const std::uint64_t missing = frames_.meet_gop(header.first_frame, header.frame_count, indexed_place());
+  if (target_ && frames_.position() + missing + header.frame_count <= *target_) return pass_gop(missing);
   if (Status begun = gop.begin(header, mesh); !begun.ok()) {
     Error cause = begun.error();
     cause.byte_offset = reader.offset();
@@ -91,17 +91,17 @@ std::optional<Decoder::Event> Decoder::State::begin_gop() {
       return std::nullopt;
     }
     reader.reject();
-    frames.search();
-    frames.take_cause({});
-    return tell(frames.lose(missing + header.frame_count, std::move(cause)));
+    frames_.search();
+    frames_.take_cause({});
+    return tell(frames_.lose(missing + header.frame_count, std::move(cause)));
   }
   std::optional<Event> event = check_place();
-  if (frames.has_unknown()) event = tell(frames.lose(missing, frames.take_cause({})));
-  if (!map_.note({IndexEntry::Kind::kGop, reader.chunk_offset(), header.frame_count}, frames.position()))
+  if (frames_.has_unknown()) event = tell(frames_.lose(missing, frames_.take_cause({})));
+  if (!map_.note({IndexEntry::Kind::kGop, reader.chunk_offset(), header.frame_count}, frames_.position()))
     reader.fail(out_of_memory());
-  gop_end_ = frames.position() + header.frame_count;
+  gop_end_ = frames_.position() + header.frame_count;
   gop_info = gop.info();
-  gop_info.first_frame = frames.position();
+  gop_info.first_frame = frames_.position();
   gop_info.bytes = reader.chunk().total_size();
   gop_info.header_bytes = reader.content().size() - header.flags.size();
   if (event) deferred_ = Event::kGop;
@@ -112,14 +112,14 @@ std::optional<Decoder::Event> Decoder::State::decode_frame() {
   const Bytes packet = reader.content();
   Status decoded = measured_take != nullptr ? (gop.*measured_take)(packet, frame_bits) : gop.take(packet);
   if (!decoded.ok()) {  // the checksum fits, so what the packet was decoded from may be wrong already
-    frames.advance(frames_left());
+    frames_.advance(frames_left());
     reader.reject();
-    frames.search();
+    frames_.search();
     return doubt_gop(decoded.error());
   }
-  frame_number = frames.position();
+  frame_number = frames_.position();
   frame_bytes = reader.raw().size();
-  frames.advance(1);
+  frames_.advance(1);
   if (target_ && frame_number < *target_) return std::nullopt;
   target_.reset();
   return Event::kFrame;
@@ -137,32 +137,32 @@ std::optional<Decoder::Event> Decoder::State::end_gop() {
 
 // format-spec §4.6
 std::optional<Decoder::Event> Decoder::State::take_index() {
-  index = std::move(reader.index());
-  const std::uint64_t missing = frames.meet_index(count_frames(index));
+  index = reader.take_index();
+  const std::uint64_t missing = frames_.meet_index(count_frames(index));
   const bool matches = map_.from_index() ? map_.matches(index) : reader.index_matches();
-  if (matches && !frames.has_unknown() && !(frames.searched() && missing > 0)) return std::nullopt;
+  if (matches && !frames_.has_unknown() && !(frames_.searched() && missing > 0)) return std::nullopt;
   Error mismatch = malformed("§4.6", "the index does not match the stream");
   mismatch.byte_offset = reader.chunk_offset();
-  return tell(frames.lose(missing, frames.take_cause(std::move(mismatch))));
+  return tell(frames_.lose(missing, frames_.take_cause(std::move(mismatch))));
 }
 
 // format-spec §8.3
 std::optional<Decoder::Event> Decoder::State::take_problem() {
   ChunkReader::Problem& problem = reader.problem();
-  if (problem.searching) frames.search();
-  if (!problem.loses) return tell(frames.lose(0, std::move(problem.error)));
-  if (frames_left() > 0) return tell(frames.lose(frames_left(), std::move(problem.error)));
-  frames.lose_unknown(std::move(problem.error));
+  if (problem.searching) frames_.search();
+  if (!problem.loses) return tell(frames_.lose(0, std::move(problem.error)));
+  if (frames_left() > 0) return tell(frames_.lose(frames_left(), std::move(problem.error)));
+  frames_.lose_unknown(std::move(problem.error));
   return std::nullopt;
 }
 
 /// A GOP whose mesh is lost, or never was there.
 Decoder::Event Decoder::State::lose_orphan() {
   const GopHeader& header = reader.gop();
-  const std::uint64_t missing = frames.meet_gop(header.first_frame, header.frame_count, indexed_place());
-  frames.search();
-  return tell(frames.lose(missing + header.frame_count,
-                          frames.take_cause(malformed("§3.4", "a GOP comes before any mesh"))));
+  const std::uint64_t missing = frames_.meet_gop(header.first_frame, header.frame_count, indexed_place());
+  frames_.search();
+  return tell(frames_.lose(missing + header.frame_count,
+                           frames_.take_cause(malformed("§3.4", "a GOP comes before any mesh"))));
 }
 
 /// The frames of the current GOP were given out, or were about to be, but are not what was encoded.
@@ -178,14 +178,14 @@ Decoder::Event Decoder::State::tell(Damage what) {
 }
 
 Decoder::Event Decoder::State::end_stream() {
-  return frames.has_unknown() ? tell(frames.settle_unknown()) : Event::kEnd;
+  return frames_.has_unknown() ? tell(frames_.settle_unknown()) : Event::kEnd;
 }
 
 /// The stream cannot be read on; what is missing of it is told first.
 Decoder::Event Decoder::State::fail() {
   const bool truncated = reader.error().code == ErrorCode::kTruncated && can_allocate(kSmallThings);
-  if (truncated && frames.has_unknown()) return tell(frames.settle_unknown());
-  if (truncated && frames_left() > 0) return tell(frames.lose(frames_left(), reader.error()));
+  if (truncated && frames_.has_unknown()) return tell(frames_.settle_unknown());
+  if (truncated && frames_left() > 0) return tell(frames_.lose(frames_left(), reader.error()));
   return Event::kError;
 }
 

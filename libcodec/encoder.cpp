@@ -21,10 +21,10 @@ namespace {
 
 /// What the GOPs of one mesh share, until the last of them is encoded.
 struct Stretch {
-  Stretch(const Mesh& given, const Skeleton& joints, std::shared_ptr<const EncodeOptions> encode_options)
+  Stretch(Mesh given, Skeleton joints, std::shared_ptr<const EncodeOptions> encode_options)
       : options(std::move(encode_options)),
-        mesh(given),
-        skeleton(joints),
+        mesh(std::move(given)),
+        skeleton(std::move(joints)),
         encoded(encode_mesh(mesh, options->keep_vertex_order)),
         measurer(mesh, skeleton, options->importance) {}
   Stretch(const Stretch&) = delete;

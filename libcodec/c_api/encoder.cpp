@@ -178,7 +178,7 @@ tvg_code tvg_encoder_set_mesh(tvg_encoder* encoder, uint32_t vertex_count, const
     std::optional<tvg::Encoder> first;
     if (!encoder->encoder) first.emplace(encoder->options, encoder->sink);
     tvg::Encoder& target = first ? *first : *encoder->encoder;
-    const tvg::Status status = target.set_mesh(mesh);
+    tvg::Status status = target.set_mesh(mesh);
     const bool refused = !status.ok() && (status.error().code == tvg::ErrorCode::kInvalidArgument ||
                                           status.error().code == tvg::ErrorCode::kInvalidInput);
     if (first && !refused) encoder->encoder = std::move(first);

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <tvg/types.hpp>
@@ -69,7 +70,8 @@ class ChunkReader {
   Event fail(Error error);
 
   const StreamHead& head() const { return head_; }
-  Metadata& metadata() { return metadata_; }
+  /// Hands out what kMetadata tells of; empty from then on.
+  Metadata take_metadata() { return std::exchange(metadata_, {}); }
   /// Its parts lie in the bytes given out: they are valid no longer than content().
   const MeshLayout& mesh() const { return mesh_; }
   /// Checksum of the payload of the mesh in force, and where its chunk begins.
@@ -82,7 +84,9 @@ class ChunkReader {
   /// The bytes of the structure given out last as they stand in the stream: of kChunk the chunk's header, of
   /// the others all from the end of the structure before. A chunk is the sum of its structures.
   Bytes raw() const { return available().first(used_); }
-  std::vector<IndexEntry>& index() { return index_; }
+  const std::vector<IndexEntry>& index() const { return index_; }
+  /// Hands out what kIndex tells of; empty from then on.
+  std::vector<IndexEntry> take_index() { return std::exchange(index_, {}); }
   /// False when the index names other chunks than were met; true also when that cannot be known.
   bool index_matches() const { return index_matches_; }
   const ChunkHeader& chunk() const { return chunk_; }

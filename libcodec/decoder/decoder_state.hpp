@@ -56,7 +56,7 @@ class Decoder::State {
   Event tell(Damage what);
   /// Frames of the GOP being read that have not been decoded.
   std::uint64_t frames_left() const {
-    return gop_end_ > frames.position() ? gop_end_ - frames.position() : 0;
+    return gop_end_ > frames_.position() ? gop_end_ - frames_.position() : 0;
   }
 
   void jump(const StreamMap::Place& place);
@@ -64,7 +64,7 @@ class Decoder::State {
   std::optional<Event> check_place();
   const StreamMap::Place* indexed_place() const;
 
-  DamageLedger frames;             ///< which are missing
+  DamageLedger frames_;            ///< which are missing
   std::optional<Event> deferred_;  ///< to be given out next
   std::uint64_t gop_end_ = 0;      ///< number of the frame behind the GOP being read; 0 outside
   StreamMap map_;

@@ -24,9 +24,9 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
   }
   const StreamMap::Place* const gop_place = map_.gop_for(frame);
   const std::uint64_t known_end = map_.frame_count();
-  const bool inside = frames_left() > 0 && frame >= frames.position() && frame < gop_end_;
+  const bool inside = frames_left() > 0 && frame >= frames_.position() && frame < gop_end_;
   const bool beyond =
-      !map_.from_index() && frame >= known_end && frames.position() >= known_end && !reader.over();
+      !map_.from_index() && frame >= known_end && frames_.position() >= known_end && !reader.over();
   target_ = frame;
   if (inside || beyond || gop_place == nullptr) return reader.input_offset();
   const StreamMap::Place* const mesh_place = map_.mesh_of(*gop_place);
@@ -39,7 +39,7 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
 /// Goes on at this mesh or GOP.
 void Decoder::State::jump(const StreamMap::Place& place) {
   reader.jump(place.entry.offset);
-  frames.jump(place.first_frame);
+  frames_.jump(place.first_frame);
   deferred_.reset();
   gop_end_ = 0;
 }
@@ -64,10 +64,10 @@ std::optional<Decoder::Event> Decoder::State::pass_gop(std::uint64_t missing) {
   const std::uint32_t frame_count = reader.gop().frame_count;
   reader.pass_over();
   std::optional<Event> event = check_place();
-  if (frames.has_unknown()) event = tell(frames.lose(missing, frames.take_cause({})));
+  if (frames_.has_unknown()) event = tell(frames_.lose(missing, frames_.take_cause({})));
   const IndexEntry entry{IndexEntry::Kind::kGop, reader.chunk_offset(), frame_count};
-  if (!map_.note(entry, frames.position())) reader.fail(out_of_memory());
-  frames.advance(frame_count);
+  if (!map_.note(entry, frames_.position())) reader.fail(out_of_memory());
+  frames_.advance(frame_count);
   return event;
 }
 
@@ -87,7 +87,7 @@ std::optional<Decoder::Event> Decoder::State::check_place() {
   map_ = StreamMap();
   Error error = malformed("§4.6", "the index does not match the stream");
   error.byte_offset = reader.chunk_offset();
-  return tell(frames.lose(0, std::move(error)));
+  return tell(frames_.lose(0, std::move(error)));
 }
 
 }  // namespace tvg

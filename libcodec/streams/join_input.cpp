@@ -61,7 +61,7 @@ void JoinInputReader::use(ChunkReader::Event event) {
       gop_start_.assign(raw.begin(), raw.end());
       break;
     case ChunkReader::Event::kMetadata:
-      metadata_ = std::move(reader_.metadata());
+      metadata_ = reader_.take_metadata();
       break;
     case ChunkReader::Event::kMesh:
       mesh_.assign(reader_.content().begin(), reader_.content().end());

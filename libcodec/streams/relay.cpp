@@ -62,7 +62,7 @@ class StreamSplitter::State {
         return true;
       case Event::kMetadata:
         part_.kind = StreamPart::Kind::kMetadata;
-        part_.metadata = std::move(reader_.metadata());
+        part_.metadata = reader_.take_metadata();
         return true;
       case Event::kMesh:
         part_.kind = StreamPart::Kind::kMesh;

@@ -56,7 +56,7 @@ class Surveyor {
         result_.head = reader_.head();
         break;
       case ChunkReader::Event::kMetadata:
-        result_.metadata = std::move(reader_.metadata());
+        result_.metadata = reader_.take_metadata();
         break;
       case ChunkReader::Event::kMesh: {
         const MeshLayout& mesh = reader_.mesh();
