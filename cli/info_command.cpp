@@ -32,8 +32,11 @@ struct InfoArguments {
 /// What only decoding tells.
 struct DecodedFacts {
   std::array<double, 3> residuals{};               ///< bytes of x, y and z
+  std::array<std::uint64_t, 3> predicted{};        ///< frames by their predictor
   std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
 };
+
+constexpr std::array<const char*, 3> kPredictorNames = {"space", "time", "elp"};
 
 /// All that is shown of a stream.
 struct StreamSummary {
@@ -93,6 +96,7 @@ DecodedFacts decode_facts(const std::string& path, std::uint64_t& damages) {
         facts.flagged[decoder.gop().first_frame] = decoder.gop().flagged;
         break;
       case Decoder::Event::kFrame:
+        ++facts.predicted[static_cast<std::size_t>(decoder.frame_predictor())];
         for (std::size_t axis = 0; axis < 3; ++axis) facts.residuals[axis] += decoder.frame_bits()[axis] / 8;
         break;
       case Decoder::Event::kDamage:
@@ -125,15 +129,9 @@ StreamSummary summarize(const std::string& path, bool bits) {
   return summary;
 }
 
-const char* predictor_name(Predictor predictor) {
-  constexpr std::array<const char*, 3> kNames = {"space", "time", "elp"};
-  return kNames[static_cast<std::size_t>(predictor)];
-}
-
 nlohmann::json to_json(const GopInfo& gop) {
   return {{"first_frame", gop.first_frame},
           {"frame_count", gop.frame_count},
-          {"predictor", predictor_name(gop.predictor)},
           {"fine_bits", gop.fine_bits},
           {"coarse_bits", gop.coarse_bits},
           {"origin", gop.origin},
@@ -151,6 +149,8 @@ void print_json(const StreamSummary& summary) {
                     {"faces", limits.faces},
                     {"frames_per_gop", limits.frames_per_gop},
                     {"packet_bytes", limits.packet_bytes},
+                    {"meshes", limits.meshes},
+                    {"mesh_bytes", limits.mesh_bytes},
                     {"decoder_memory", limits.decoder_memory}};
   json["metadata"] = stream.metadata;
   json["bytes"] = stream.bytes;
@@ -162,6 +162,10 @@ void print_json(const StreamSummary& summary) {
   json["damages"] = summary.damages;
   for (const auto& [purpose, bytes] : purposes(summary)) json["bytes_by_purpose"][purpose] = bytes;
   json["bits_per_coordinate"] = bits_per_coordinate(stream.bytes, summary.vertex_frames(), 1);
+  if (summary.decoded) {
+    for (std::size_t i = 0; i < kPredictorNames.size(); ++i)
+      json["frames_by_predictor"][kPredictorNames[i]] = summary.decoded->predicted[i];
+  }
   for (const ChunkInfo& chunk : stream.chunks) {
     json["chunks"].push_back({{"type", chunk.type}, {"offset", chunk.offset}, {"bytes", chunk.bytes}});
   }
@@ -188,8 +192,8 @@ void print_purposes(const StreamSummary& summary) {
 
 void print_gops(const StreamSummary& summary) {
   const StreamSurvey& stream = summary.stream;
-  fmt::print("\nGOPs\n  {:>8} {:>7} {:>10} {:>6} {:>9} {:>12} {:>9}\n", "first", "frames", "predictor",
-             "bits", "step", "bytes", summary.decoded ? "flagged" : "");
+  fmt::print("\nGOPs\n  {:>8} {:>7} {:>6} {:>9} {:>12} {:>9}\n", "first", "frames", "bits", "step", "bytes",
+             summary.decoded ? "flagged" : "");
   for (std::size_t i = 0; i < stream.gops.size(); ++i) {
     const GopInfo& gop = stream.gops[i];
     const std::string bits = gop.fine_bits == gop.coarse_bits
@@ -198,8 +202,8 @@ void print_gops(const StreamSummary& summary) {
     std::string flagged;
     if (const auto count = summary.flagged(gop))
       flagged = fmt::format("{:>7.1f} %", 100.0 * *count / stream.meshes[stream.gop_meshes[i]].vertices);
-    fmt::print("  {:>8} {:>7} {:>10} {:>6} {:>9.4g} {:>12} {}\n", gop.first_frame, gop.frame_count,
-               predictor_name(gop.predictor), bits, gop.step, gop.bytes, flagged);
+    fmt::print("  {:>8} {:>7} {:>6} {:>9.4g} {:>12} {}\n", gop.first_frame, gop.frame_count, bits, gop.step,
+               gop.bytes, flagged);
   }
 }
 
@@ -215,6 +219,16 @@ void print_text(const StreamSummary& summary) {
     fmt::print("  {} meshes; the counts are those of the last\n", stream.meshes.size());
   fmt::print("  decoding needs at most {} of memory\n", readable_bytes(stream.head.limits.decoder_memory));
   for (const auto& [key, value] : stream.metadata) fmt::print("  {}: {}\n", key, value);
+  if (summary.decoded) {
+    fmt::print("  frames predicted");
+    const char* separator = " by";
+    for (std::size_t i = 0; i < kPredictorNames.size(); ++i) {
+      if (summary.decoded->predicted[i] == 0) continue;
+      fmt::print("{} {}: {}", std::exchange(separator, ","), kPredictorNames[i],
+                 summary.decoded->predicted[i]);
+    }
+    fmt::print("\n");
+  }
   if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
   print_purposes(summary);
   print_gops(summary);

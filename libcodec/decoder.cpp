@@ -9,8 +9,10 @@
 namespace tvg {
 
 Decoder::Event Decoder::State::poll() {
-  if (deferred_) return *std::exchange(deferred_, std::nullopt);
   for (;;) {
+    for (std::optional<Event>& event : deferred_) {
+      if (event) return *std::exchange(event, std::nullopt);
+    }
     if (const std::optional<Event> event = step()) return *event;
   }
 }
@@ -30,12 +32,13 @@ std::optional<Decoder::Event> Decoder::State::step() {
       return take_mesh();
     case ChunkReader::Event::kGop:
       return begin_gop();
-    case ChunkReader::Event::kOrphan:
-      return lose_orphan();
+    case ChunkReader::Event::kGopLost:
+      return lose_gop();
     case ChunkReader::Event::kFrame:
       return decode_frame();
     case ChunkReader::Event::kDigest:
       return end_gop();
+    case ChunkReader::Event::kPacket:
     case ChunkReader::Event::kGopEnd:
       return std::nullopt;
     case ChunkReader::Event::kIndex:
@@ -60,63 +63,101 @@ Decoder::Event Decoder::State::take_chunk() {
 
 // format-spec §4.3
 std::optional<Decoder::Event> Decoder::State::take_mesh() {
-  Result<CodedMesh> decoded = decode_mesh(reader.mesh(), reader.mesh_checksum());
+  Result<std::shared_ptr<const CodedMesh>> decoded = decode_mesh_read();
   if (!decoded) {
     Error& cause = decoded.error();
     cause.byte_offset = reader.chunk_offset();
-    reader.reject();
     if (cause.code == ErrorCode::kOutOfMemory) {
       reader.fail(std::move(cause));
     } else {
+      reader.reject(cause.code);
       frames_.lose_unknown(std::move(cause));
     }
     return std::nullopt;
   }
-  mesh = std::move(*decoded);
-  if (!map_.note({IndexEntry::Kind::kMesh, reader.chunk_offset(), 0}, frames_.position()))
+  const bool noted =
+      map_.note({{.offset = reader.chunk_offset(), .kind = IndexEntry::Kind::kMesh}, frames_.position()});
+  if (!noted ||
+      !meshes_.put(reader.mesh_id(), reader.chunk_offset(), *decoded, reader.head().limits.meshes)) {
     reader.fail(out_of_memory());
-  return Event::kMesh;
+    return std::nullopt;
+  }
+  return show(std::move(*decoded)) ? std::optional(Event::kMesh) : std::nullopt;
+}
+
+/// The mesh whose chunk was just read: one that is in force already is not decoded again.
+Result<std::shared_ptr<const CodedMesh>> Decoder::State::decode_mesh_read() const {
+  if (const auto* const known = meshes_.find(reader.mesh_id())) return known->value;
+  Result<CodedMesh> decoded = decode_mesh(reader.mesh(), reader.mesh_id());
+  if (!decoded) return decoded.error();
+  if (!can_allocate(kSmallThings)) return out_of_memory();
+  return std::shared_ptr<const CodedMesh>(std::make_shared<CodedMesh>(std::move(*decoded)));
+}
+
+/// Makes a mesh that of the frames to come; false where it is already.
+bool Decoder::State::show(std::shared_ptr<const CodedMesh> next) {
+  if (next == mesh) return false;
+  mesh = std::move(next);
+  return true;
 }
 
 // format-spec §4.5
 std::optional<Decoder::Event> Decoder::State::begin_gop() {
   const GopHeader& header = reader.gop();
   const std::uint64_t missing = frames_.meet_gop(header.first_frame, header.frame_count, indexed_place());
-  if (target_ && frames_.position() + missing + header.frame_count <= *target_) return pass_gop(missing);
-  if (Status begun = gop.begin(header, mesh); !begun.ok()) {
-    Error cause = begun.error();
-    cause.byte_offset = reader.offset();
-    if (cause.code == ErrorCode::kOutOfMemory) {
-      reader.fail(std::move(cause));
-      return std::nullopt;
-    }
-    reader.reject();
-    frames_.search();
-    frames_.take_cause({});
-    return tell(frames_.lose(missing + header.frame_count, std::move(cause)));
-  }
-  std::optional<Event> event = check_place();
-  if (frames_.has_unknown()) event = tell(frames_.lose(missing, frames_.take_cause({})));
-  if (!map_.note({IndexEntry::Kind::kGop, reader.chunk_offset(), header.frame_count}, frames_.position()))
-    reader.fail(out_of_memory());
+  if (is_on_the_way(missing)) return pass_gop(missing);
+  const auto* const in_force = meshes_.find(header.mesh);
+  if (in_force == nullptr)
+    return reject_gop(missing, malformed("§4.5.1", "the mesh of a GOP is not in force"));
+  const bool another_mesh = show(in_force->value);
+  if (Status begun = gop.begin(header, mesh); !begun.ok()) return reject_gop(missing, begun.error());
+  std::optional<Event> told = check_place();
+  if (frames_.has_unknown()) told = tell(frames_.lose(missing, frames_.take_cause({})));
+  note_gop();
   gop_end_ = frames_.position() + header.frame_count;
   gop_info = gop.info();
   gop_info.first_frame = frames_.position();
   gop_info.bytes = reader.chunk().total_size();
-  gop_info.header_bytes = reader.content().size() - header.flags.size();
-  if (event) deferred_ = Event::kGop;
-  return event ? event : Event::kGop;
+  gop_info.header_bytes = reader.content().size() - gop_info.flag_bytes;
+  deferred_ = {another_mesh ? std::optional(Event::kMesh) : std::nullopt, Event::kGop};
+  return told;
+}
+
+/// A GOP with these frames missing before it cannot be decoded, though its header packet is whole.
+Decoder::Event Decoder::State::reject_gop(std::uint64_t missing, Error cause) {
+  const std::uint32_t frame_count = reader.gop().frame_count;
+  cause.byte_offset = reader.offset();
+  reader.reject(cause.code);
+  if (cause.code == ErrorCode::kOutOfMemory) {
+    reader.fail(std::move(cause));
+    return Event::kError;
+  }
+  if (cause.code != ErrorCode::kUnsupported) frames_.search();
+  note_gop();
+  frames_.take_cause({});
+  return tell(frames_.lose(missing + frame_count, std::move(cause)));
+}
+
+/// Takes note of where the GOP lies whose header was just read.
+void Decoder::State::note_gop() {
+  const IndexEntry entry{.offset = reader.chunk_offset(), .frame_count = reader.gop().frame_count};
+  const auto* const in_force = reader.meshes().find(reader.gop().mesh);
+  if (!map_.note(
+          {entry, frames_.position(), in_force != nullptr ? std::optional(in_force->offset) : std::nullopt}))
+    reader.fail(out_of_memory());
 }
 
 std::optional<Decoder::Event> Decoder::State::decode_frame() {
   const Bytes packet = reader.content();
-  Status decoded = measured_take != nullptr ? (gop.*measured_take)(packet, frame_bits) : gop.take(packet);
+  const Predictor predictor = reader.predictor();
+  Status decoded = measured_take != nullptr ? (gop.*measured_take)(packet, predictor, frame_bits)
+                                            : gop.take(packet, predictor);
   if (!decoded.ok()) {  // the checksum fits, so what the packet was decoded from may be wrong already
-    frames_.advance(frames_left());
-    reader.reject();
+    reader.reject(decoded.error().code);
     frames_.search();
     return doubt_gop(decoded.error());
   }
+  frame_predictor = predictor;
   frame_number = frames_.position();
   frame_bytes = reader.raw().size();
   frames_.advance(1);
@@ -151,22 +192,26 @@ std::optional<Decoder::Event> Decoder::State::take_problem() {
   ChunkReader::Problem& problem = reader.problem();
   if (problem.searching) frames_.search();
   if (!problem.loses) return tell(frames_.lose(0, std::move(problem.error)));
+  if (problem.doubts) return doubt_gop(std::move(problem.error));
   if (frames_left() > 0) return tell(frames_.lose(frames_left(), std::move(problem.error)));
   frames_.lose_unknown(std::move(problem.error));
   return std::nullopt;
 }
 
-/// A GOP whose mesh is lost, or never was there.
-Decoder::Event Decoder::State::lose_orphan() {
+/// A GOP that the reader does not take apart: its mesh is not in force, or more is needed than is known here.
+std::optional<Decoder::Event> Decoder::State::lose_gop() {
   const GopHeader& header = reader.gop();
   const std::uint64_t missing = frames_.meet_gop(header.first_frame, header.frame_count, indexed_place());
-  frames_.search();
-  return tell(frames_.lose(missing + header.frame_count,
-                           frames_.take_cause(malformed("§3.4", "a GOP comes before any mesh"))));
+  if (is_on_the_way(missing)) return pass_gop(missing);  // its mesh was passed over, perhaps
+  note_gop();
+  ChunkReader::Problem& problem = reader.problem();
+  if (problem.searching) frames_.search();
+  return tell(frames_.lose(missing + header.frame_count, frames_.take_cause(std::move(problem.error))));
 }
 
 /// The frames of the current GOP were given out, or were about to be, but are not what was encoded.
 Decoder::Event Decoder::State::doubt_gop(Error cause) {
+  frames_.advance(frames_left());
   cause.byte_offset = reader.chunk_offset();
   return tell(DamageLedger::doubt(gop_info.first_frame, gop_info.frame_count, std::move(cause)));
 }
@@ -212,10 +257,10 @@ const Metadata& Decoder::metadata() const {
   return state_->metadata;
 }
 const Mesh& Decoder::mesh() const {
-  return state_->mesh.mesh;
+  return state_->mesh->mesh;
 }
 const MeshInfo& Decoder::mesh_info() const {
-  return state_->mesh.info;
+  return state_->mesh->info;
 }
 const ChunkInfo& Decoder::chunk() const {
   return state_->chunk_info;
@@ -237,6 +282,9 @@ const GopInfo& Decoder::gop() const {
 }
 std::uint64_t Decoder::frame_number() const {
   return state_->frame_number;
+}
+Predictor Decoder::frame_predictor() const {
+  return state_->frame_predictor;
 }
 std::uint64_t Decoder::frame_bytes() const {
   return state_->frame_bytes;

@@ -1,5 +1,6 @@
 #include "base/errors.hpp"
 #include "connectivity/mesh_coder_encode.hpp"
+#include "container/chunk.hpp"
 #include "container/stream_writer.hpp"
 #include "encoder/encode_checks.hpp"
 #include "encoder/gop_queue.hpp"
@@ -181,6 +182,8 @@ class Encoder::State {
       report_.vertices = mesh.vertex_count;
       if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
     }
+    if (stretch->encoded.payload.size() > limits_.mesh_bytes)
+      return Error{ErrorCode::kLimitExceeded, "the mesh is coded in more bytes than the head declares"};
     frames_before_ = frames_added();
     stretch_ = std::move(stretch);
     cutter_.emplace(options_->gop_frames, options_->importance.low_delay);

@@ -1,5 +1,6 @@
 #include "server/live_hub.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tvg::cli {
@@ -16,15 +17,10 @@ bool LiveStream::add(StreamPart part) {
       start_.metadata = std::move(part.metadata);
       break;
     case StreamPart::Kind::kMesh:
-      mesh_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk));
+      add_mesh(part.mesh, std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk)));
       break;
     case StreamPart::Kind::kGop:
-      newest_.push_back({gops_, mesh_,
-                         std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk)),
-                         part.frame_count});
-      ++gops_;
-      frames_ += part.frame_count;
-      keep_newest();
+      add_gop(std::move(part));
       break;
     case StreamPart::Kind::kEnd:
       ended_ = true;
@@ -32,6 +28,30 @@ bool LiveStream::add(StreamPart part) {
   }
   changed_.notify_all();
   return true;
+}
+
+void LiveStream::add_mesh(std::uint32_t name, SharedBytes chunk) {
+  std::erase_if(meshes_, [name](const LiveMesh& mesh) { return mesh.name == name; });
+  meshes_.push_back({name, std::move(chunk)});
+  std::uint64_t bytes = 0;
+  std::size_t kept = 0;
+  for (auto mesh = meshes_.rbegin(); mesh != meshes_.rend() && kept < start_.limits.meshes; ++mesh, ++kept) {
+    bytes += mesh->chunk->size();
+    if (kept > 0 && bytes > kept_bytes_) break;
+  }
+  meshes_.erase(meshes_.begin(), meshes_.end() - static_cast<std::ptrdiff_t>(kept));
+}
+
+void LiveStream::add_gop(StreamPart part) {
+  const auto mesh = std::find_if(meshes_.begin(), meshes_.end(),
+                                 [&part](const LiveMesh& kept) { return kept.name == part.mesh; });
+  frames_ += part.frame_count;
+  if (mesh == meshes_.end()) return;  // of a mesh that took too much memory to keep
+  newest_.push_back({gops_, mesh->chunk,
+                     std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk)),
+                     part.frame_count});
+  ++gops_;
+  keep_newest();
 }
 
 void LiveStream::keep_newest() {
@@ -52,8 +72,8 @@ void LiveStream::end() {
 
 std::optional<LiveStream::Start> LiveStream::wait_for_start(std::chrono::milliseconds time) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, time, [this] { return mesh_ != nullptr || ended_; });
-  if (mesh_ == nullptr) return std::nullopt;
+  changed_.wait_for(lock, time, [this] { return !meshes_.empty() || ended_; });
+  if (meshes_.empty()) return std::nullopt;
   return start_;
 }
 

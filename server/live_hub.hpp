@@ -38,7 +38,8 @@ struct LiveStatus {
   std::int64_t since = 0;  ///< when it began, in seconds since 1970
 };
 
-/// One live stream: keeps the newest GOPs and nothing per viewer. A viewer comes with the number of the GOP
+/// One live stream: keeps the newest GOPs, the meshes in force as far as they take no more memory than these,
+/// and nothing per viewer. A viewer comes with the number of the GOP
 /// it wants next; one that comes too late for it is given the newest instead.
 class LiveStream {
  public:
@@ -71,6 +72,13 @@ class LiveStream {
   LiveStatus status() const;
 
  private:
+  struct LiveMesh {
+    std::uint32_t name = 0;
+    SharedBytes chunk;
+  };
+
+  void add_mesh(std::uint32_t name, SharedBytes chunk);
+  void add_gop(StreamPart part);
   void keep_newest();
 
   const std::uint64_t kept_bytes_;
@@ -79,8 +87,8 @@ class LiveStream {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Start start_;
-  SharedBytes mesh_;
-  std::deque<LiveGop> newest_;  ///< oldest first, numbers without a gap
+  std::deque<LiveMesh> meshes_;  ///< those that GOPs to come may belong to, the latest last
+  std::deque<LiveGop> newest_;   ///< oldest first, numbers without a gap
   bool ended_ = false;
   std::uint64_t viewers_ = 0;
   std::uint64_t frames_ = 0;

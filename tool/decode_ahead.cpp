@@ -91,16 +91,14 @@ DecodeAhead::~DecodeAhead() = default;
 
 void DecodeAhead::start_next() {
   const auto places = map_.places();
-  while (next_place_ < places.size() && places[next_place_].entry.kind != IndexEntry::Kind::kGop)
-    ++next_place_;
+  while (next_place_ < places.size() && !places[next_place_].entry.is_gop()) ++next_place_;
   if (next_place_ == places.size() || places[next_place_].first_frame > last_frame_) return;
   const StreamMap::Place& place = places[next_place_++];
-  const StreamMap::Place* const mesh = map_.mesh_of(place);
   std::unique_ptr<Worker> worker = std::move(idle_.back());
   idle_.pop_back();
   Worker& decoder = *worker;
-  pending_.push_back({std::move(worker), std::async(std::launch::async, [&decoder, place, mesh] {
-                        return decoder.decode(place, mesh != nullptr ? mesh->entry.offset : 0);
+  pending_.push_back({std::move(worker), std::async(std::launch::async, [&decoder, place] {
+                        return decoder.decode(place, place.mesh_offset.value_or(0));
                       })});
 }
 

@@ -2,29 +2,37 @@
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
 It follows the order of the specification and uses its names. It does not recover from damage (§8.3): the first
-violation ends it, with the number of the section that is violated. Python 3, standard library only.
+violation ends a stream. Python 3, standard library only.
 
-    python3 tvg_reference.py FILE.tvg [--digests]
+    python3 tvg_reference.py FILE.tvg...
 
-prints one JSON object: the number of frames; vertices and faces of each mesh; the metadata; and the SHA-256 of all
-faces (u32), lattice indices (i32) and positions (binary32) in output order. With --digests also the digest of each GOP
-(§7.6).
-Exit status: 0; 2 usage, or the file cannot be read; 3 the stream is not valid.
+prints for each stream what corpus/conformance/digests.txt has of it: its name; its bytes; its frames; the vertices and
+the faces of its meshes, summed; and the XXH64 of all lattice indices (i32), positions (binary32) and faces (u32) in
+output order. A mesh counts when a frame has other faces or another number of vertices than the frame before it.
+
+    python3 tvg_reference.py --check FILE.tvg...
+
+prints for each stream "valid", or its first violation: the error (§8.4), the section that is violated, and what is
+wrong.
+
+Exit status: 0; 2 usage, or a file cannot be read; 3 a stream is not valid.
 """
-import hashlib
-import json
 import math
+import os
 import struct
 import sys
 from bisect import bisect_left
 
 class Invalid(Exception):
-    """The stream violates a section of the specification."""
+    """The stream violates a section of the specification; error is one of those of §8.4."""
+    def __init__(self, error, section, what):
+        super().__init__(error.replace(' ', '-') + f" §{section}: {what}")
+        self.error, self.section = error, section
 
-def require(condition, section, what, kind="malformed"):
+def require(condition, section, what, error="malformed"):
     """Refuse the stream unless the condition holds."""
     if not condition:
-        raise Invalid(f"section {section}: {kind}: {what}")
+        raise Invalid(error, section, what)
 
 # 1. Terms and conventions
 NONE = 0xFFFFFFFF
@@ -48,7 +56,7 @@ class Reader:
         return self.take(len(self.data) - self.at)
 
     def end(self):
-        require(self.at == len(self.data), self.section, "bytes left over (section 4)")
+        require(self.at == len(self.data), self.section, "bytes left over (§4)")
 
     def unsigned(self, size):  # 2.1 Fixed-size values
         return int.from_bytes(self.take(size), "little")
@@ -107,188 +115,339 @@ def checksum(data, seed=0):
 
 # 3. The stream
 SIGNATURE = bytes.fromhex("8B5456470D0A1A0A")
-ANCILLARY = {b"HEAD": 0, b"META": 1, b"MESH": 0, b"GOP ": 0, b"INDX": 1, b"TAIL": 0}
-LIMITS = (2 ** 24, 2 ** 25, 2 ** 16, 2 ** 28)  # §8.1: vertices, faces, frames_per_gop, packet_bytes
+ANCILLARY = {b"HEAD": 0, b"META": 1, b"DATA": 1, b"MESH": 0, b"PLAN": 0, b"GOP ": 0, b"INDX": 1, b"TAIL": 0}  # 3.2
+
+# 3.4 Order of chunks: for each state the next one, by the chunk.
+COLUMNS = (*ANCILLARY, "ancillary", "critical", "no more bytes")
+BAD, VERSION = "malformed", "unsupported version"
+ORDER = {
+    "start": ("open", BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, "truncated"),
+    "open": (BAD, "open", "open", "body", BAD, BAD, "indexed", BAD, "open", VERSION, "truncated"),
+    "body": (BAD, "body", "body", "body", "body", "body", "indexed", BAD, "body", VERSION, "truncated"),
+    "indexed": (BAD, BAD, BAD, BAD, BAD, BAD, BAD, "ended", "indexed", VERSION, "truncated"),
+    "ended": (BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, "complete"),
+}
+LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30}  # §8.1, by key of §4.1
+MESH_ENTRY, PLAN_ENTRY, GOP_ENTRY = 1, 2, 3  # kinds of §4.6
+SPACE, TIME, ELP = 0, 1, 2  # predictors of §7.2
+
+def unknown_text(key):
+    """3.5: what is even may be skipped."""
+    return f"number {key} is required and not known"
+
+class Mesh:
+    """A mesh in force (4.3); number: that of its latest entry of the index among the meshes', from 1."""
+    def __init__(self, V, faces, gates, order):
+        self.V, self.gates, self.order, self.number = V, gates, order, 0
+        self.faces = [tuple(order[corner] for corner in face) for face in faces]  # in output order
 
 class Decoder:
     """Decodes one stream; the results are in its fields."""
     def __init__(self, data):
-        self.data, self.metadata, self.meshes, self.frames, self.gop_digests = data, {}, [], 0, []
-        self.sha_faces, self.sha_indices, self.sha_positions = hashlib.sha256(), hashlib.sha256(), hashlib.sha256()
-        self.index = []  # what INDX should hold: (frame_count or 0, offset of the chunk)
+        self.data, self.metadata, self.named_data, self.frames = data, {}, {}, 0
+        self.meshes, self.plans = {}, {}  # in force, by id; the latest comes last (4.3, 4.9)
+        self.index = []  # what INDX should hold: (kind, offset of the chunk, fields)
+        self.shown, self.shown_vertices, self.shown_faces = None, 0, 0  # the mesh of the last frame; sums
+        self.face_bytes, self.index_bytes, self.position_bytes = bytearray(), bytearray(), bytearray()
+
+    def facts(self):
+        """What digests.txt says of the stream, without its name."""
+        hashed = self.index_bytes, self.position_bytes, self.face_bytes
+        digests = [f"{xxh64(bytes(values)):016x}" for values in hashed]
+        return " ".join(map(str, (len(self.data), self.frames, self.shown_vertices, self.shown_faces, *digests)))
 
     def decode(self):
         """3.1 Signature, and 3.4 Order of chunks."""
         hint = " (damaged by a transfer in text mode?)" if self.data[:4] == SIGNATURE[:4] else ""
-        require(self.data[:8] == SIGNATURE, "3.1", "wrong signature" + hint, "not TVG")
-        at, seen, index_at = 8, [], None
+        require(SIGNATURE.startswith(self.data[:8]), "3.1", "wrong signature" + hint, "not TVG")
+        require(len(self.data) >= 8, "3.4", "the stream ends in the signature", "truncated")
+        at, state, index_at = 8, "start", None
+        parse = {b"HEAD": self.head, b"META": self.meta, b"DATA": self.data_chunk, b"MESH": self.mesh,
+                 b"PLAN": self.plan, b"GOP ": self.gop}
         while at < len(self.data):
+            require(state != "ended", "3.4", "bytes behind TAIL")
             offset = at
-            kind, ancillary, payload, at = self.chunk(offset)
-            require(seen or kind == b"HEAD", "3.4", "the first chunk is not HEAD")
-            require(b"TAIL" not in seen, "3.4", "bytes behind TAIL")
-            require(ancillary or kind in ANCILLARY, "3.2", f"unknown chunk {kind}", "unsupported version")
-            if kind not in ANCILLARY:
-                continue
-            require(ancillary == ANCILLARY[kind], "3.4", f"wrong ancillary flag of chunk {kind}")
-            require(kind in (b"MESH", b"GOP ") or kind not in seen, "3.4", f"a second chunk {kind}")
-            require(kind != b"META" or seen == [b"HEAD"], "3.4", "META behind the first MESH")
-            require(kind not in (b"GOP ", b"INDX") or self.meshes, "3.4", f"chunk {kind} before any mesh")
-            require((kind == b"TAIL") == (b"INDX" in seen), "3.4", "INDX and TAIL do not end the stream")
-            seen.append(kind)
-            if kind == b"HEAD":
-                self.head(payload)
-            elif kind == b"META":
-                self.meta(payload)
-            elif kind == b"MESH":
-                self.mesh(payload)
-                self.index.append((0, offset))
-            elif kind == b"GOP ":
-                self.index.append((self.gop(payload), offset))
-            elif kind == b"INDX":
+            kind, ancillary, payload_at, at = self.chunk_header(offset)
+            known = kind in ANCILLARY
+            column = kind if known else "ancillary" if ancillary else "critical"
+            following = ORDER[state][COLUMNS.index(column)]
+            require(following != BAD, "3.4", f"chunk {kind} in the state {state}")
+            require(following != VERSION, "3.2", f"unknown chunk {kind}", VERSION)
+            require(not known or ancillary == ANCILLARY[kind], "3.2", f"wrong ancillary flag of chunk {kind}")
+            payload, payload_checksum = self.payload(kind, payload_at, at)
+            if kind == b"INDX":
                 self.indx(payload)
                 index_at = offset
             elif kind == b"TAIL":
                 self.tail(payload, offset - index_at)
-        require(b"TAIL" in seen, "3.4", "no TAIL", "truncated")
+            elif known:
+                parse[kind](payload, payload_checksum, offset)
+            state = following
+        require(state == "ended", "3.4", f"the stream ends in the state {state}", "truncated")
 
-    def chunk(self, at):
-        """3.2 Chunks, and 3.3 Payload checksums. Returns type, ancillary bit, payload, offset of the next chunk."""
-        require(at + 16 <= len(self.data), "3.2", "the stream ends in a chunk header", "truncated")
+    def chunk_header(self, at):
+        """3.2 Chunks. Returns type, ancillary bit, offset of the payload, offset of the next chunk."""
+        require(at + 16 <= len(self.data), "3.4", "the stream ends in a chunk header", "truncated")
         kind, chunk_flags, length, header_checksum = struct.unpack_from("<4s3I", self.data, at)
         require(header_checksum == checksum(self.data[at:at + 12]), "3.2", "wrong header checksum")
         require(all(0x20 <= c <= 0x7E for c in kind), "3.2", "wrong characters of a chunk type")
         require(chunk_flags <= 1, "3.2", "reserved flags are set")
         require(length <= 2 ** 31 - 1, "3.2", "length of a chunk")
-        end = at + 16 + length
-        require(end + 4 <= len(self.data), "3.2", "the stream ends in a chunk", "truncated")
-        payload = self.data[at + 16:end]
-        if kind in ANCILLARY:
-            payload_checksum = int.from_bytes(self.data[end:end + 4], "little")
-            require(payload_checksum == checksum(payload), "3.3", f"wrong payload checksum of chunk {kind}")
-        return kind, chunk_flags, payload, end + 4
+        return kind, chunk_flags, at + 16, at + 16 + length + 4
+
+    def payload(self, kind, at, end):
+        """3.3 Payload checksums. Returns the payload and its checksum."""
+        require(end <= len(self.data), "3.4", "the stream ends in a chunk", "truncated")
+        payload, payload_checksum = self.data[at:end - 4], int.from_bytes(self.data[end - 4:end], "little")
+        require(payload_checksum == checksum(payload), "3.3", f"wrong payload checksum of chunk {kind}",
+                "checksum-mismatch")
+        return payload, payload_checksum
 
     # 4. Payloads
-    def head(self, payload):
+    def head(self, payload, *_):
         """4.1 HEAD."""
-        reader = Reader(payload, "4.1")
+        require(len(payload) <= 2 ** 16, "4.1", "size of the payload")
+        reader, bounds, last = Reader(payload, "4.1"), {}, -1
         major, minor = reader.unsigned(2), reader.unsigned(2)
-        require(major == 0 and minor <= 1, "4.1", f"version {major}.{minor}", "unsupported version")
-        require(minor == 1, "4.1", "minor")
-        require(reader.unsigned(4) == 0, "4.1", "reserved")
-        bounds = [reader.unsigned(4) for _ in range(4)]
-        self.vertices, self.faces, self.frames_per_gop, self.packet_bytes = bounds
-        memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes  # §8.2
-        require(reader.unsigned(8) == memory, "4.1", "decoder_memory")
-        reader.end()
-        for bound, limit in zip(bounds, LIMITS):
-            require(bound <= limit, "8.1", "more than this decoder allows", "limit-exceeded")
+        require((major, minor) == (0, 2), "4.1", f"version {major}.{minor}, not 0.2", VERSION)
+        while reader.at < len(payload):
+            key, value = reader.varint(), reader.varint()
+            require(key > last, "3.5", "keys do not ascend")
+            require(key in (1, 3, 5, 7, 9, 11, 13) or key % 2 == 0, "4.1", unknown_text(key), VERSION)
+            bounds[key] = value
+            last = key
+        for key in (1, 3, 5, 7, 9, 11, 13):
+            require(key in bounds, "4.1", f"key {key} is missing")
+            require(bounds[key] < (2 ** 63 if key == 9 else 2 ** 32), "4.1", f"value of key {key}")
+        require(1 <= bounds[11] <= 65536, "4.1", "meshes")
+        self.vertices, self.faces, self.frames_per_gop, self.packet_bytes = (bounds[key] for key in (1, 3, 5, 7))
+        self.meshes_in_force, self.mesh_bytes = bounds[11], bounds[13]
+        # 8.2 Memory
+        memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes + self.mesh_bytes
+        memory += (self.meshes_in_force - 1) * (512 + 24 * self.vertices + 16 * self.faces)
+        require(bounds[9] >= memory, "4.1", "decoder_memory")
+        for key, limit in LIMITS.items():
+            require(bounds[key] <= limit, "8.1", f"key {key}: more than this decoder allows", "limit-exceeded")
 
-    def meta(self, payload):
+    def meta(self, payload, *_):
         """4.2 META."""
         require(len(payload) <= 2 ** 20, "4.2", "size of the metadata")
-        reader = Reader(payload, "4.2")
+        reader, metadata, last = Reader(payload, "4.2"), {}, b""
         count = reader.varint()
         require(count <= (len(payload) - reader.at) // 2, "4.2", "number of entries")
-        last = b""
         for _ in range(count):
             key, value = reader.take(reader.varint()), reader.take(reader.varint())
             require(key > last, "4.2", "keys are empty or do not ascend")
-            require(b"\0" not in key + value, "4.2", "U+0000 in a text")
+            metadata[text(key, "4.2")] = text(value, "4.2")
             last = key
-            try:
-                self.metadata[key.decode("utf-8")] = value.decode("utf-8")
-            except UnicodeDecodeError:
-                require(False, "4.2", "not UTF-8")
         reader.end()
+        self.metadata = metadata
 
-    def mesh(self, payload):
+    def mesh(self, payload, identity, offset):
         """4.3 MESH."""
-        self.mesh_checksum = checksum(payload)
-        require(len(payload) <= 64 + 16 * (self.vertices + self.faces), "4.3", "payload size", "limit-exceeded")
-        reader = Reader(payload, "4.3")
+        require(len(payload) <= self.mesh_bytes, "4.3", "size of a mesh's payload", "limit-exceeded")
+        mesh = self.meshes.pop(identity, None) or self.read_mesh(payload)
+        self.meshes[identity] = mesh
+        if len(self.meshes) > self.meshes_in_force:
+            del self.meshes[next(iter(self.meshes))]
+        self.index.append((MESH_ENTRY, offset, ()))
+        mesh.number = self.entries(MESH_ENTRY)
+
+    def read_mesh(self, payload):
+        reader, sections, last = Reader(payload, "4.3"), {}, -1
         V, F = reader.varint(), reader.varint()
         require(1 <= V <= 2 ** 31 - 1, "4.3", "vertex_count")
         require(F <= 2 ** 31 - 1, "4.3", "face_count")
         require(V <= self.vertices and F <= self.faces, "4.1", "size of a mesh", "limit-exceeded")
-        has_order = reader.unsigned(1)
-        require(has_order <= 1, "4.3", "order")
-        faces, self.gates = Connectivity(reader.take(reader.varint()), V, F).decode()
-        self.order = vertex_order(reader.rest(), self.gates) if has_order else list(range(V))
-        reader.end()
-        self.meshes.append((V, F))
-        for face in faces:
-            self.sha_faces.update(struct.pack("<3I", *(self.order[corner] for corner in face)))
+        while reader.at < len(payload):
+            kind, section = reader.varint(), reader.take(reader.varint())
+            require(kind > last, "3.5", "kinds of sections do not ascend")
+            sections[kind] = section
+            last = kind
+        require(1 in sections, "4.3", "no connectivity")
+        for kind in sections:
+            require(kind in (1, 3) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+        require(V + F <= 128 * len(sections[1]) and F <= 2 ** 30, "5.1", "too many vertices or faces",
+                "limit-exceeded")
+        faces, gates = Connectivity(RangeDecoder(sections[1], "5.1"), V, F).decode()
+        return Mesh(V, faces, gates, vertex_order(sections[3], gates) if 3 in sections else list(range(V)))
 
-    def gop(self, payload):
-        """4.5 GOP. Returns frame_count."""
-        reader = Reader(payload, "4.5")
+    def entries(self, kind):
+        """How many entries of a kind the index has so far."""
+        return sum(entry[0] == kind for entry in self.index)
+
+    def gop(self, payload, _, offset):
+        """4.5 GOP."""
+        reader, number = Reader(payload, "4.5"), 0
 
         def packet(seed):
-            size = reader.varint()
+            """Kind, content and checksum of the next packet."""
+            at = reader.at
+            kind, size = reader.unsigned(1), reader.varint()
             require(size <= self.packet_bytes, "4.1", "size of a packet", "limit-exceeded")
-            content, packet_checksum = reader.take(size), reader.unsigned(4)
-            require(packet_checksum == checksum(content, seed), "4.5", "wrong packet checksum")
-            return content, packet_checksum
+            content = reader.take(size)
+            covered, packet_checksum = payload[at:reader.at], reader.unsigned(4)
+            require(packet_checksum == checksum(covered, seed), "4.5", "wrong packet checksum", "checksum-mismatch")
+            return kind, content, packet_checksum
 
-        # 4.5.1 The header packet
-        content, header_checksum = packet(0)
-        header = Reader(content, "4.5.1")
-        mode, predictor, fine_bits, coarse_bits = (header.unsigned(1) for _ in range(4))
-        require(mode == 0, "4.5.1", "mode")
-        require(predictor <= 2, "4.5.1", "predictor")
-        require(1 <= fine_bits <= 24, "4.5.1", "fine_bits")
-        require(1 <= coarse_bits <= fine_bits, "4.5.1", "coarse_bits")
-        origin, step = [header.f64() for _ in range(3)], header.f64()
-        require(all(map(math.isfinite, origin)), "4.5.1", "origin")
-        require(math.isfinite(step) and step > 0, "4.5.1", "step")
-        first_frame, frame_count = header.varint(), header.varint()
-        require(first_frame <= 2 ** 62, "4.5.1", "first_frame")
-        require(frame_count >= 1, "4.5.1", "frame_count")
-        require(frame_count <= self.frames_per_gop, "4.1", "frames of a GOP", "limit-exceeded")
-        fine = flags(header.rest(), self.gates, fine_bits == coarse_bits)
+        kind, content, header_checksum = packet(0)
+        require(kind == 0, "4.5", "the first packet is no header")
+        header = Header(content, self)
+        mesh = self.meshes[header.mesh]
+        backs = [self.entries(PLAN_ENTRY) + 1 - self.plans[plane] for plane in header.planes]
+        fields = (header.frame_count, self.entries(MESH_ENTRY) + 1 - mesh.number, len(backs), *backs)
+        self.index.append((GOP_ENTRY, offset, fields))
+        header.elp(mesh)
 
-        frames = Frames(self.gates, fine, fine_bits, coarse_bits, ("space", "time", "elp")[predictor])
-        hashed = bytearray()
-        for k in range(1, frame_count + 1):
-            frames.frame(packet((header_checksum ^ self.mesh_checksum) * 2 ** 32 + k)[0])
-            hashed += b"".join(struct.pack("<4I", *index, 0) for index in frames.X)
-            self.output(frames, origin, step)
-        # 7.6 The digest
-        digest = packet((header_checksum ^ self.mesh_checksum) * 2 ** 32 + frame_count + 1)[0]
-        require(len(digest) == 8, "4.5", "size of the digest")
-        self.gop_digests.append(xxh64(bytes(hashed)))
-        require(int.from_bytes(digest, "little") == self.gop_digests[-1], "7.6", "wrong digest", "digest-mismatch")
+        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits)
+        hashed, digested, decoded = bytearray(), False, 0
+        while number < header.packet_count:
+            number += 1
+            kind, content, _ = packet(header_checksum * 2 ** 32 + number)
+            if 128 <= kind:
+                continue
+            if kind == 1:
+                require(not digested, "4.5", "a second digest")
+                require(decoded == header.frame_count, "4.5", "the digest comes before the last frame")
+                self.digest(header, content, bytes(hashed))
+                digested = True
+                continue
+            require(kind != 0, "4.5", "a second header")
+            require(32 <= kind <= 34, "4.5", f"packets of kind {kind} are not known", "unsupported")
+            require(decoded < header.frame_count, "4.5", "more frames than frame_count")
+            require(decoded > 0 or kind == 32, "4.5.2", "the first frame is not predicted by space")
+            frames.frame(RangeDecoder(header.positions(content), "7.5"), kind - 32)
+            decoded += 1
+            hashed += b"".join(struct.pack("<3i", *index) for index in frames.X)
+            self.output(mesh, frames, header)
+        require(digested, "4.5", "no digest")
         reader.end()
-        return frame_count
 
-    def output(self, frames, origin, step):
+    def digest(self, header, content, values):
+        """4.5.3 The digest packet, and 7.6 The digest."""
+        reader = Reader(content, "4.5.3")
+        for channel in header.channels:
+            require(reader.varint() == channel, "4.5.3", "channels of the digest")
+            expected = reader.unsigned(8)
+            require(channel != 1 or expected == xxh64(values), "7.6", "wrong digest", "digest-mismatch")
+        reader.end()
+
+    def output(self, mesh, frames, header):
         """Give out one frame, in output order (4.3)."""
-        indices, positions = [None] * len(self.order), [None] * len(self.order)
-        for v, place in enumerate(self.order):
+        if self.shown is None or (mesh.V, mesh.faces) != (self.shown.V, self.shown.faces):
+            self.shown_vertices += mesh.V
+            self.shown_faces += len(mesh.faces)
+            self.face_bytes += b"".join(struct.pack("<3I", *face) for face in mesh.faces)
+        indices, positions = [b""] * mesh.V, [b""] * mesh.V
+        for v, place in enumerate(mesh.order):
             index = [x >> frames.shift[v] for x in frames.X[v]]
             indices[place] = struct.pack("<3i", *index)
-            edge = step * 2.0 ** frames.shift[v]
-            positions[place] = struct.pack("<3f", *(position(o, i, edge) for o, i in zip(origin, index)))
-        self.sha_indices.update(b"".join(indices))
-        self.sha_positions.update(b"".join(positions))
+            edge = header.step * 2.0 ** frames.shift[v]
+            positions[place] = struct.pack("<3f", *(position(o, i, edge) for o, i in zip(header.origin, index)))
+        self.index_bytes += b"".join(indices)
+        self.position_bytes += b"".join(positions)
         self.frames += 1
+        self.shown = mesh
 
     def indx(self, payload):
         """4.6 INDX."""
-        reader, last = Reader(payload, "4.6"), 0
-        require(reader.varint() == len(self.index), "4.6", "number of entries")
-        for count, offset in self.index:
-            require(reader.varint() == count, "4.6", "number of frames")
-            require(reader.varint() == offset - last, "4.6", "distance")
-            last = offset
+        require(len(payload) <= 2 ** 20 + 1024 * len(self.index), "4.6", "size of the index")
+        reader, offset, entries = Reader(payload, "4.6"), 0, []
+        count = reader.varint()
+        require(count <= (len(payload) - reader.at) // 3, "4.6", "number of entries")
+        for _ in range(count):
+            kind, distance = reader.varint(), reader.varint()
+            fields, values = Reader(reader.take(reader.varint()), "4.6"), []
+            offset += distance
+            require(distance >= 1 and offset <= 2 ** 62, "4.6", "distance")
+            if kind in (1, 2, 3, 4):
+                while fields.at < len(fields.data):
+                    values.append(fields.varint())
+                entries.append((kind, offset, tuple(values)))
         reader.end()
+        require(entries == self.index, "4.6", "the index does not match the stream")
 
     def tail(self, payload, distance):
         """4.7 TAIL."""
         reader = Reader(payload, "4.7")
         require(reader.unsigned(8) == distance, "4.7", "distance to INDX")
         reader.end()
+
+    def data_chunk(self, payload, *_):
+        """4.8 DATA."""
+        require(len(payload) <= 2 ** 26 + 2048, "4.8", "size of the payload", "limit-exceeded")
+        reader = Reader(payload, "4.8")
+        size = reader.varint()
+        require(1 <= size <= 1024, "4.8", "size of the name")
+        name, encoding, decoded_size = text(reader.take(size), "4.8"), reader.unsigned(1), reader.varint()
+        require(decoded_size <= 2 ** 26, "4.8", "decoded_size", "limit-exceeded")
+        content = reader.rest()
+        require(len(content) <= decoded_size, "4.8", "more bytes than decoded_size")
+        require(encoding != 0 or len(content) == decoded_size, "4.8", "fewer bytes than decoded_size")
+        self.named_data[name] = (encoding, decoded_size, content)
+
+    def plan(self, payload, identity, offset):
+        """4.9 PLAN."""
+        reader = Reader(payload, "4.9")
+        require(reader.unsigned(4) in self.meshes, "4.9", "the mesh is not in force")
+        reader.varint()  # adds_to
+        require(reader.varint() != 0, "4.9", "mode elp shares nothing")
+        self.index.append((PLAN_ENTRY, offset, ()))
+        number = self.entries(PLAN_ENTRY)
+        self.plans[identity] = number
+        self.plans = {plane: latest for plane, latest in self.plans.items() if latest > number - 256}
+
+def text(data, section):
+    """Text as in 4.2."""
+    require(b"\0" not in data, section, "U+0000 in a text")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        require(False, section, "not UTF-8")
+
+class Header:
+    """4.5.1 The header packet: first what does not depend on the mode."""
+    def __init__(self, content, decoder):
+        self.reader = reader = Reader(content, "4.5.1")
+        self.mesh = reader.unsigned(4)
+        require(self.mesh in decoder.meshes, "4.5.1", "the mesh is not in force")
+        self.first_frame, self.frame_count, self.packet_count = (reader.varint() for _ in range(3))
+        require(self.first_frame <= 2 ** 62, "4.5.1", "first_frame")
+        require(self.frame_count >= 1, "4.5.1", "frame_count")
+        require(self.frame_count <= decoder.frames_per_gop, "4.1", "frames of a GOP", "limit-exceeded")
+        require(self.frame_count + 1 <= self.packet_count <= 2 ** 31 - 1, "4.5.1", "packet_count")
+        planes = reader.varint()
+        require(planes <= 256, "4.5.1", "planes")
+        self.planes = [reader.unsigned(4) for _ in range(planes)]
+        require(all(plane in decoder.plans for plane in self.planes), "4.5.1", "a plane is not in force")
+        self.mode = reader.varint()
+
+    def elp(self, mesh):
+        """The fields of mode elp."""
+        reader = self.reader
+        require(self.mode == 0, "4.5.1", f"mode {self.mode}", "unsupported")
+        require(not self.planes, "4.5.1", "mode elp has no planes")
+        count = reader.varint()
+        require(1 <= count <= 256, "4.5.1", "number of channels")
+        self.channels = [reader.varint() for _ in range(count)]
+        require(all(a < b for a, b in zip(self.channels, self.channels[1:])), "3.5", "channels do not ascend")
+        require(self.channels[0] == 1, "4.5.1", "the first channel is not positions")
+        self.fine_bits, self.coarse_bits = reader.unsigned(1), reader.unsigned(1)
+        require(1 <= self.fine_bits <= 24, "4.5.1", "fine_bits")
+        require(1 <= self.coarse_bits <= self.fine_bits, "4.5.1", "coarse_bits")
+        self.origin, self.step = [reader.f64() for _ in range(3)], reader.f64()
+        require(all(map(math.isfinite, self.origin)), "4.5.1", "origin")
+        require(math.isfinite(self.step) and self.step > 0, "4.5.1", "step")
+        for channel in self.channels[1:]:
+            require(channel % 2 == 0, "4.5.1", unknown_text(channel), "unsupported")
+        self.fine = flags(reader.rest(), mesh.gates, self.fine_bits == self.coarse_bits)
+
+    def positions(self, content):
+        """4.5.2 A frame's packet: the piece of channel 1, which is the first."""
+        reader, pieces = Reader(content, "4.5.2"), []
+        for _ in self.channels[1:]:
+            pieces.append(reader.take(reader.varint()))
+        return (pieces + [reader.rest()])[0]
 
 # 5. The mesh
 class Edge:
@@ -312,9 +471,8 @@ def meets_next(e):
 
 class Connectivity:
     """5.1 Connectivity. Where the specification has numbers of edges, there are the edges themselves here."""
-    def __init__(self, data, V, F):
-        require(V + F <= 128 * len(data) and F <= 2 ** 30, "5.1", "too many vertices or faces", "limit-exceeded")
-        self.V, self.F, self.coder = V, F, RangeDecoder(data, "5.1")
+    def __init__(self, coder, V, F):
+        self.coder, self.V, self.F = coder, V, F
         # 5.1.1 State
         self.faces, self.gates, self.edges, self.degree, self.edge_at = [], [], [], [0] * V, [None] * V
         # 5.1.2 Models
@@ -393,7 +551,7 @@ class Connectivity:
             link(e2, e0)
 
     def any_vertex(self):
-        value = self.coder.bits(0, (len(self.gates) - 1).bit_length())
+        value = self.coder.bits((len(self.gates) - 1).bit_length())
         require(value < len(self.gates), "5.1.4", "a vertex that has not been seen")
         return value
 
@@ -449,7 +607,7 @@ class Connectivity:
     def padding(self):
         """5.1.6 Padding."""
         if self.coder.raw(1):
-            require(self.coder.bits(0, (self.V + self.F + 15) // 16) == 0, "5.1.6", "padding")
+            require(self.coder.bits((self.V + self.F + 15) // 16) == 0, "5.1.6", "padding")
 
 def vertex_order(data, gates):
     """5.2 Vertex order."""
@@ -473,7 +631,7 @@ def near_order(coder, gates, unused):
         if k == 15:
             k += coder.raw(5)
         require(k <= 32, "5.2.1", "number")
-        return k if k <= 1 else coder.bits(1, k - 1)
+        return k if k <= 1 else 2 ** (k - 1) + coder.bits(k - 1)
 
     for i, (n, p, o) in enumerate(gates):
         r = [bisect_left(unused, order[w]) if w != NONE else 0 for w in (i - 1 if i > 0 else NONE, n, p, o)]
@@ -490,7 +648,7 @@ def uniform_order(coder, gates, unused):
     """5.2.2 Uniform."""
     def uniform(bound):
         k = bound.bit_length() - 1
-        u, value = 2 ** (k + 1) - bound, coder.bits(0, k)
+        u, value = 2 ** (k + 1) - bound, coder.bits(k)
         return value if value < u else 2 * value + coder.raw(1) - u
 
     return [unused.pop(uniform(len(unused))) for _ in gates]
@@ -503,7 +661,7 @@ class RangeDecoder:
         self.code = int.from_bytes(data[:4].ljust(4, b"\0"), "big")
 
     def check(self, condition, what):
-        require(condition, "6.1", f"{what}, in the stream of section {self.user}")
+        require(condition, "6.1", f"{what}, in the stream of §{self.user}")
 
     def next_bit(self):
         byte, bit = divmod(32 + self.shifted, 8)
@@ -526,14 +684,15 @@ class RangeDecoder:
 
     def symbol(self, a, b=None):
         """An adaptive symbol, coded with models a and b, or with a taken twice."""
-        b = b or a
-        cumulative = [((a.c[i] + b.c[i] + 1) >> 1) + 4 * i for i in range(16)] + [2 ** 15]
-        t, s = self.target(), 0
-        while cumulative[s + 1] <= t:
-            s += 1
-        self.interval(cumulative[s], cumulative[s + 1] - cumulative[s])
-        for model in {a, b}:
-            model.adapt(s)
+        first, second = a.c, (b or a).c
+        t, s, low, high = self.target(), 0, 0, (first[1] + second[1] + 1 >> 1) + 4
+        while high <= t:
+            s, low = s + 1, high
+            high = (first[s + 1] + second[s + 1] + 1 >> 1) + 4 * (s + 1) if s < 15 else 2 ** 15
+        self.interval(low, high - low)
+        a.adapt(s)
+        if b is not None and b is not a:
+            b.adapt(s)
         return s
 
     def bit(self, model):
@@ -549,11 +708,11 @@ class RangeDecoder:
         self.interval(v << (15 - k), 1 << (15 - k))
         return v
 
-    def bits(self, value, left):
-        """The loop of §5 and §7: raw bits appended to value, at most 15 at a time."""
-        while left > 0:
-            m = min(left, 15)
-            left -= m
+    def bits(self, k):
+        value = 0
+        while k > 0:
+            m = min(k, 15)
+            k -= m
             value = value * 2 ** m + self.raw(m)
         return value
 
@@ -579,18 +738,24 @@ class Bit:
         self.slow += -(self.slow >> r) if bit else (0xFFFF - self.slow) >> r
         self.count = min(self.count + 1, 12)
 
+def start(weights):
+    """The first state of an adaptive symbol with 16 weights that sum up to one of N, or to 65535."""
+    return [(2 ** 15 - 64) * sum(weights[:i]) // sum(weights) for i in range(16)]
+
+EVEN = {N: start([1] * N + [0] * (16 - N)) for N in range(2, 17)}
+
 class Symbol:
     """An adaptive symbol: of N equally likely ones, or with 16 weights."""
     S = 2 ** 15 - 64
 
     def __init__(self, N=16, weights=None):
         self.count = 0
-        self.c = [self.S * (sum(weights[:i]) if weights else min(i, N)) // (65535 if weights else N) for i in range(16)]
+        self.c = start(weights) if weights else EVEN[N][:]
 
     def adapt(self, s):
-        rate = 2 + sum(self.count >= bound for bound in (2, 6, 16, 32))
-        for i in range(1, 16):
-            self.c[i] += ((self.S if i > s else 0) - self.c[i]) >> rate
+        rate = 2 + (self.count >= 2) + (self.count >= 6) + (self.count >= 16) + (self.count >= 32)
+        S, c = self.S, self.c
+        self.c = [x + ((S if i > s else 0) - x >> rate) for i, x in enumerate(c)]
         self.count = min(self.count + 1, 32)
 
 # 7. Frames
@@ -620,23 +785,24 @@ def half(x):
 
 class Frames:
     """The frames of one GOP."""
-    def __init__(self, gates, fine, fine_bits, coarse_bits, predictor):
-        self.gates, self.fine, self.predictor = gates, fine, predictor
+    def __init__(self, gates, fine, fine_bits, coarse_bits):
+        self.gates, self.fine = gates, fine
         self.B2, self.D = fine_bits, fine_bits - coarse_bits
         self.shift = [0 if is_fine else self.D for is_fine in fine]
         self.X, self.before = None, None  # padded indices of this frame and of the one before
         self.R = [[0, 0, 0] for _ in gates]
-        self.sets = [[Level() for _ in range(16)] for _ in range(6)]
+        self.levels = {}  # by set and level, made when they are first used
 
-    def frame(self, packet):
-        """7.5 A frame."""
-        coder = RangeDecoder(packet, "7.5")
-        self.before, self.X = self.X, [[0, 0, 0] for _ in self.gates]
+    def frame(self, coder, predictor):
+        """7.5 A frame, from a range-coder stream."""
+        self.before, self.X, self.predictor = self.X, [[0, 0, 0] for _ in self.gates], predictor
         for v, shift in enumerate(self.shift):
             for axis in range(3):
                 prediction, model_set, activity, first, second = self.predict(v, axis)
                 level = sum(activity >= threshold for threshold in THRESHOLDS)
-                value = residual(coder, level, self.sets[model_set][level], first, second)
+                if (model_set, level) not in self.levels:
+                    self.levels[model_set, level] = Level()
+                value = residual(coder, level, self.levels[model_set, level], first, second)
                 index = prediction + value
                 require(0 <= index < 2 ** (self.B2 - shift), "7.5", "an index outside its lattice")
                 self.X[v][axis], self.R[v][axis] = index << shift, value << shift
@@ -644,8 +810,7 @@ class Frames:
 
     def predict(self, v, axis):
         """Prediction, set, activity, first and second for a vertex in an axis."""
-        (n, p, o), shift, R_v = self.gates[v], self.shift[v], self.R[v][axis]
-        predictor = self.predictor if self.before else "space"
+        (n, p, o), shift, R_v, predictor = self.gates[v], self.shift[v], self.R[v][axis], self.predictor
 
         def now(w):
             return self.X[w][axis] >> shift
@@ -658,16 +823,16 @@ class Frames:
 
         # 7.2 Predictors
         if o == NONE:
-            if predictor == "space":
+            if predictor == SPACE:
                 near = n if n != NONE else v - 1
                 prediction = now(near) if near >= 0 else 2 ** (self.B2 - 1) >> shift
             else:
-                prediction = before(v) + (motion(n) if predictor == "elp" and n != NONE else 0)
+                prediction = before(v) + (motion(n) if predictor == ELP and n != NONE else 0)
             activity = 8 * abs(R_v) if self.before else 64 if n != NONE else 255
             return prediction, 0, activity >> shift, 7, 6 + sgn1(R_v)
-        if predictor == "space":
+        if predictor == SPACE:
             prediction, lean = now(n) + now(p) - now(o), 0
-        elif predictor == "time":
+        elif predictor == TIME:
             prediction, lean = before(v), -motion(n) - motion(p)
         else:
             prediction = before(v) + motion(n) + motion(p) - motion(o)
@@ -683,7 +848,7 @@ class Frames:
             model_set = 1 + h if self.fine[v] else 4 if h == 0 else 5
         activity = (2 * (abs(R_n) + abs(R_p)) + abs(R_o) + 3 * abs(R_v)) >> shift
         first, second = 3 * sgn2(lean) + sgn1(R_n + R_p), 3 * sgn2(lean) + sgn1(R_v)
-        if model_set in (1, 2, 3) and predictor != "space":
+        if model_set in (1, 2, 3) and predictor != SPACE:
             if h == 0:
                 pull = lean >> 1
             else:
@@ -707,7 +872,7 @@ def escape(coder, longer):
     negative, length = coder.raw(1), 0
     while length < 27 and coder.bit(longer[length]):
         length += 1
-    size = min(coder.bits(1, length) + 7, 2 ** 27)
+    size = min(2 ** length + coder.bits(length) + 7, 2 ** 27)
     return -size if negative else size
 
 def flags(data, gates, one_lattice):
@@ -715,33 +880,43 @@ def flags(data, gates, one_lattice):
     if one_lattice:
         require(not data, "4.5.1", "flags where B1 = B2")
         return [1] * len(gates)
-    coder, models, flag = RangeDecoder(data, "7.4"), [Bit() for _ in range(5)], []
-    for gate in gates:
-        flag.append(coder.bit(models[4 if gate[2] == NONE else sum(flag[w] for w in gate)]))
+    coder = RangeDecoder(data, "7.4")
+    flag = flag_bits(coder, gates)
     coder.finish()
     return flag
 
+def flag_bits(coder, gates):
+    models, flag = [Bit() for _ in range(5)], []
+    for gate in gates:
+        flag.append(coder.bit(models[4 if gate[2] == NONE else sum(flag[w] for w in gate)]))
+    return flag
+
+def decode(path):
+    """Decode the stream in a file; the decoder holds what it is."""
+    with open(path, "rb") as file:
+        decoder = Decoder(file.read())
+    decoder.decode()
+    return decoder
+
 def main(arguments):
-    """Decode the file named by the arguments and print what is in it."""
-    names = [argument for argument in arguments if argument != "--digests"]
-    if len(names) != 1:
-        print("usage: tvg_reference.py FILE.tvg [--digests]", file=sys.stderr)
+    """Decode the files named by the arguments and print what is in them."""
+    paths = [argument for argument in arguments if argument != "--check"]
+    if not paths or any(path.startswith("-") for path in paths):
+        print("usage: tvg_reference.py [--check] FILE.tvg...", file=sys.stderr)
         return 2
-    try:
-        with open(names[0], "rb") as file:
-            decoder = Decoder(file.read())
-        decoder.decode()
-    except (OSError, Invalid) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 3 if isinstance(error, Invalid) else 2
-    result = {"frames": decoder.frames, "vertices": [V for V, _ in decoder.meshes],
-              "faces": [F for _, F in decoder.meshes], "metadata": decoder.metadata,
-              "faces_sha256": decoder.sha_faces.hexdigest(),
-              "indices_sha256": decoder.sha_indices.hexdigest(), "positions_sha256": decoder.sha_positions.hexdigest()}
-    if "--digests" in arguments:
-        result["gop_digests"] = [f"{digest:016x}" for digest in decoder.gop_digests]
-    print(json.dumps(result, indent=2))
-    return 0
+    status = 0
+    for path in paths:
+        name = os.path.splitext(os.path.basename(path))[0]
+        try:
+            decoder = decode(path)
+            print(name, "valid" if "--check" in arguments else decoder.facts())
+        except Invalid as error:
+            print(name, error, file=sys.stdout if "--check" in arguments else sys.stderr)
+            status = 3
+        except OSError as error:
+            print(f"error: {error}", file=sys.stderr)
+            return 2
+    return status
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))

@@ -2,6 +2,7 @@
 
 namespace tvg {
 
+// format-spec §8.4
 const char* error_name(ErrorCode code) {
   switch (code) {
     case ErrorCode::kInvalidArgument:
@@ -22,6 +23,8 @@ const char* error_name(ErrorCode code) {
       return "malformed";
     case ErrorCode::kDigestMismatch:
       return "digest-mismatch";
+    case ErrorCode::kUnsupported:
+      return "unsupported";
     case ErrorCode::kLimitExceeded:
       return "limit-exceeded";
     case ErrorCode::kOutOfMemory:

@@ -115,7 +115,7 @@ const char* tvg_code_name(int code) {
 tvg_code tvg_limits_init(tvg_limits* limits) {
   const tvg::DecoderLimits defaults;
   return give<tvg_limits>({sizeof(tvg_limits), defaults.vertices, defaults.faces, defaults.frames_per_gop,
-                           defaults.packet_bytes, defaults.memory},
+                           defaults.packet_bytes, defaults.memory, defaults.meshes, defaults.mesh_bytes},
                           limits);
 }
 
@@ -129,7 +129,8 @@ tvg_decoder* tvg_decoder_create(const tvg_limits* limits) {
   }
   try {
     return new tvg_decoder(tvg::DecoderLimits{known.vertices, known.faces, known.frames_per_gop,
-                                              known.packet_bytes, known.memory_bytes});
+                                              known.packet_bytes, known.meshes, known.mesh_bytes,
+                                              known.memory_bytes});
   } catch (const std::exception&) {
     return nullptr;
   }
@@ -174,7 +175,7 @@ tvg_code tvg_decoder_get_stream(const tvg_decoder* decoder, tvg_stream_info* str
   const tvg::StreamHead& head = decoder->decoder.head();
   return give<tvg_stream_info>(
       {sizeof(tvg_stream_info), head.major, head.minor, head.limits.vertices, head.limits.faces,
-       head.limits.frames_per_gop, head.limits.decoder_memory, decoder->frame_count},
+       head.limits.frames_per_gop, head.limits.decoder_memory, decoder->frame_count, head.limits.meshes},
       stream);
 }
 
@@ -224,7 +225,9 @@ tvg_code tvg_decoder_get_frame(const tvg_decoder* decoder, tvg_frame_info* frame
   if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
   if (!decoder->has_frame) return TVG_ERROR_WRONG_STATE;
   return give<tvg_frame_info>(
-      {sizeof(tvg_frame_info), decoder->decoder.frame_number(), decoder->decoder.frame_bytes()}, frame);
+      {sizeof(tvg_frame_info), decoder->decoder.frame_number(), decoder->decoder.frame_bytes(),
+       static_cast<std::uint32_t>(decoder->decoder.frame_predictor())},
+      frame);
 }
 
 tvg_code tvg_decoder_copy_positions(const tvg_decoder* decoder, void* positions, size_t size, size_t stride) {

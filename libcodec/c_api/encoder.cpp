@@ -90,6 +90,7 @@ tvg::EncodeOptions options_of(const tvg_encoder_options& given) {
   options.keep_vertex_order = given.reorder == 0;
   options.max_vertices = given.max_vertices;
   options.max_faces = given.max_faces;
+  options.max_meshes = std::max(given.max_meshes, 1u);
   options.first_frame = given.first_frame;
   if (given.has_box != 0) {
     options.box.emplace();
@@ -129,6 +130,7 @@ tvg_code tvg_encoder_options_init(tvg_encoder_options* options) {
   values.predictor = static_cast<std::uint32_t>(defaults.predictor);
   values.gop_frames = defaults.gop_frames;
   values.threads = defaults.threads;
+  values.max_meshes = defaults.max_meshes;
   return give(values, options);
 }
 

@@ -17,10 +17,10 @@ struct CodedMesh {
   std::vector<Gate> gates;           ///< [traversal index]
   std::vector<std::uint32_t> order;  ///< [traversal index] = vertex of `mesh`
   MeshInfo info;
-  std::uint32_t payload_checksum = 0;  ///< of the mesh chunk: part of what its GOPs' packets are checked by
+  std::uint32_t id = 0;  ///< the mesh chunk's payload checksum, by which GOPs name it
 };
 
-/// Decodes a mesh from the parts of its chunk (format-spec §4.3), whose payload has this checksum.
-Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t payload_checksum);
+/// Decodes a mesh from the sections of its chunk (format-spec §4.3).
+Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t id);
 
 }  // namespace tvg

@@ -8,7 +8,7 @@
 namespace tvg {
 
 // format-spec §4.3
-Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t payload_checksum) {
+Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t id) {
   // What the traversal may hold at once, its lists growing by doubling. Every vertex and face has its share
   // of a byte, so that this is in proportion to the payload.
   constexpr std::size_t kPerVertex = 48, kPerFace = 96, kModels = std::size_t{1} << 18;
@@ -22,7 +22,7 @@ Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t payload_ch
   if (!connectivity) return connectivity.error();
 
   CodedMesh coded;
-  coded.payload_checksum = payload_checksum;
+  coded.id = id;
   coded.info = {layout.connectivity.size(), layout.order.size(), layout.keeps_order};
   coded.gates = std::move(connectivity->gates);
   coded.mesh = {layout.vertex_count, std::move(connectivity->faces)};

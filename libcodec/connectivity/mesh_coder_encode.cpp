@@ -16,7 +16,7 @@ EncodedMesh encode_mesh(const Mesh& mesh, bool keep_order) {
   result.payload = write_mesh(
       {mesh.vertex_count, static_cast<std::uint32_t>(mesh.faces.size()), keep_order, encoded.bytes, order});
   result.coded.mesh = mesh;
-  result.coded.payload_checksum = checksum(result.payload);
+  result.coded.id = checksum(result.payload);
   result.coded.gates = std::move(encoded.connectivity.gates);
   result.coded.order = std::move(encoded.order);
   result.coded.info = {encoded.bytes.size(), order.size(), keep_order};

@@ -18,7 +18,9 @@ inline constexpr std::array<std::uint8_t, 8> kSignature = {0x8B, 'T', 'V', 'G', 
 using ChunkType = std::array<char, 4>;
 inline constexpr ChunkType kHeadChunk = {'H', 'E', 'A', 'D'};
 inline constexpr ChunkType kMetadataChunk = {'M', 'E', 'T', 'A'};
+inline constexpr ChunkType kDataChunk = {'D', 'A', 'T', 'A'};
 inline constexpr ChunkType kMeshChunk = {'M', 'E', 'S', 'H'};
+inline constexpr ChunkType kPlanChunk = {'P', 'L', 'A', 'N'};
 inline constexpr ChunkType kGopChunk = {'G', 'O', 'P', ' '};
 inline constexpr ChunkType kIndexChunk = {'I', 'N', 'D', 'X'};
 inline constexpr ChunkType kTailChunk = {'T', 'A', 'I', 'L'};
@@ -33,8 +35,10 @@ inline constexpr std::size_t kChunkChecksumSize = 4;
 /// No chunk is shorter: a header and a payload checksum.
 inline constexpr std::size_t kLeastChunkSize = kChunkHeaderSize + kChunkChecksumSize;
 inline constexpr std::uint32_t kMaxChunkLength = 0x7FFFFFFF;
-/// Payloads of head, metadata and tail are no longer than this (§4.2).
-inline constexpr std::uint32_t kMaxSmallPayload = 1u << 20;
+/// Bounds of payloads (§4.1, §4.2, §4.8).
+inline constexpr std::uint32_t kMaxHeadPayload = 1u << 16;
+inline constexpr std::uint32_t kMaxMetadataPayload = 1u << 20;
+inline constexpr std::uint32_t kMaxDataPayload = (1u << 26) + 2048;
 
 struct ChunkHeader {
   ChunkType type;

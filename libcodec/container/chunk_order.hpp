@@ -3,12 +3,25 @@
 
 #include <cstdint>
 
+#include <tvg/types.hpp>
+
 // Which chunk may follow which, as a table of state and chunk (format-spec §3.4).
 namespace tvg {
 
 /// What kind of chunk a header announces. The last two are types that this version does not know.
-enum class ChunkKind : std::uint8_t { kHead, kMetadata, kMesh, kGop, kIndex, kTail, kAncillary, kCritical };
-inline constexpr std::size_t kChunkKinds = 8;
+enum class ChunkKind : std::uint8_t {
+  kHead,
+  kMetadata,
+  kData,
+  kMesh,
+  kPlan,
+  kGop,
+  kIndex,
+  kTail,
+  kAncillary,
+  kCritical,
+};
+inline constexpr std::size_t kChunkKinds = 10;
 
 ChunkKind kind_of(const ChunkHeader& header);
 
@@ -17,10 +30,11 @@ bool flag_fits(const ChunkHeader& header, ChunkKind kind);
 
 /// How far a stream has come.
 enum class StreamState : std::uint8_t {
-  kStart,  ///< before the head
-  kBody,   ///< meshes and their GOPs
-  kIndex,  ///< behind the index
-  kEnd,    ///< behind the tail
+  kStart,    ///< before the head
+  kOpen,     ///< before the first mesh
+  kBody,     ///< meshes and their GOPs
+  kIndexed,  ///< behind the index
+  kEnded,    ///< behind the tail
 };
 
 /// What becomes of a chunk that stands where it does.
@@ -35,6 +49,7 @@ struct OrderRule {
   Verdict verdict = Verdict::kTake;
   const char* fault = nullptr;  ///< what is wrong, unless the verdict is kTake
   const char* section = "";     ///< that it breaks
+  ErrorCode code = ErrorCode::kMalformed;
 };
 
 const OrderRule& order_rule(StreamState state, ChunkKind kind);

@@ -10,10 +10,24 @@ namespace tvg {
 
 namespace {
 
-/// The section that bounds the length of such a payload.
-const char* section_of_length(ChunkKind kind) {
-  if (kind == ChunkKind::kMesh) return "§4.3";
-  return kind == ChunkKind::kIndex ? "§4.6" : "§4.2";
+/// What is wrong with a payload of such a chunk that is too long.
+OrderRule rule_of_length(ChunkKind kind) {
+  constexpr OrderRule::Verdict kPassOver = OrderRule::Verdict::kPassOver;
+  constexpr const char* kFault = "the payload of a chunk is too long";
+  switch (kind) {
+    case ChunkKind::kHead:
+      return {kPassOver, kFault, "§4.1"};
+    case ChunkKind::kMetadata:
+      return {kPassOver, kFault, "§4.2"};
+    case ChunkKind::kData:
+      return {kPassOver, kFault, "§4.8", ErrorCode::kLimitExceeded};
+    case ChunkKind::kMesh:
+      return {kPassOver, kFault, "§4.3", ErrorCode::kLimitExceeded};
+    case ChunkKind::kIndex:
+      return {kPassOver, kFault, "§4.6"};
+    default:
+      return {kPassOver, kFault, "§4.7"};
+  }
 }
 
 }  // namespace
@@ -50,6 +64,8 @@ std::optional<ChunkReader::Event> ChunkReader::step() {
       return read_header();
     case Phase::kPayload:
       return read_payload();
+    case Phase::kPlan:
+      return begin_plan();
     case Phase::kPassOver:
       return pass_payload();
     case Phase::kPacket:
@@ -86,7 +102,7 @@ ChunkReader::Event ChunkReader::fail(Error error) {
 ChunkReader::Event ChunkReader::report(Error error) {
   if (error.code == ErrorCode::kOutOfMemory) return fail(std::move(error));
   if (!error.byte_offset) error.byte_offset = chunk_offset_;
-  problem_ = {std::move(error), false, phase_ == Phase::kSearch};
+  problem_ = {std::move(error), false, phase_ == Phase::kSearch, false};
   return Event::kProblem;
 }
 
@@ -95,8 +111,8 @@ ChunkReader::Event ChunkReader::lose(Error error, std::size_t passed) {
   if (error.code == ErrorCode::kOutOfMemory) return fail(std::move(error));
   if (!error.byte_offset) error.byte_offset = offset_;
   if (!has_head()) return fail(std::move(error));
-  // No frame is behind the index, unless the order of chunks was broken before.
-  problem_ = {std::move(error), state_ == StreamState::kBody || phase_ == Phase::kPacket, true};
+  // No frame is behind the index, or behind the digest of a GOP.
+  problem_ = {std::move(error), phase_ == Phase::kPacket ? !digest_met_ : in_sequence(), true, false};
   begin_search(passed);
   return Event::kProblem;
 }
@@ -118,16 +134,19 @@ void ChunkReader::begin_search(std::size_t passed) {
   used_ = std::min(passed, available().size());
 }
 
-void ChunkReader::reject() {
-  if (kind_ == ChunkKind::kMesh) has_mesh_ = false;
-  if (phase_ == Phase::kPacket || phase_ == Phase::kGopChecksum) begin_search(used_);
-  whole_ = false;
+void ChunkReader::reject(ErrorCode why) {
+  if (kind_ == ChunkKind::kMesh) {
+    if (auto* const mesh = meshes_.find(payload_checksum_)) mesh->value.fault = why;
+  } else if (phase_ == Phase::kPacket && why == ErrorCode::kUnsupported) {
+    phase_ = Phase::kPassOver;
+  } else if (phase_ == Phase::kPacket) {
+    begin_search(used_);
+  }
 }
 
 void ChunkReader::pass_over() {
   phase_ = Phase::kPassOver;
   hashed_ = false;
-  whole_ = false;
 }
 
 std::uint64_t ChunkReader::skip() {
@@ -138,17 +157,17 @@ std::uint64_t ChunkReader::skip() {
   consume(available().size());
   offset_ += count;
   phase_ = Phase::kChunkHeader;
-  whole_ = false;
   return count;
 }
 
-void ChunkReader::jump(std::uint64_t new_offset) {
+void ChunkReader::jump(std::uint64_t new_offset, std::span<const std::uint64_t> meshes) {
   buffer_.clear();
   begin_ = used_ = 0;
   content_ = {};
   offset_ = new_offset;
   phase_ = Phase::kChunkHeader;
   state_ = StreamState::kBody;
+  meshes_.keep_only(meshes);
   index_offset_.reset();
   finished_ = false;
   whole_ = false;
@@ -171,7 +190,7 @@ std::optional<ChunkReader::Event> ChunkReader::read_signature() {
   }
   if (count < kSignature.size()) {
     if (!finished_ || count > 0) return need_bytes();
-    Error error = stream_error(ErrorCode::kTruncated, "§3.1", {"the stream is empty"});
+    Error error = stream_error(ErrorCode::kTruncated, "§3.4", {"the stream is empty"});
     error.byte_offset = 0;
     return fail(std::move(error));
   }
@@ -202,10 +221,9 @@ OrderRule ChunkReader::rule_for(const ChunkHeader& header, ChunkKind kind) const
   constexpr OrderRule::Verdict kPassOver = OrderRule::Verdict::kPassOver;
   const OrderRule& rule = order_rule(state_, kind);
   if (rule.verdict == OrderRule::Verdict::kRefuse) return rule;
-  if (!flag_fits(header, kind)) return {kPassOver, "a chunk's ancillary flag does not fit its type", "§3.4"};
+  if (!flag_fits(header, kind)) return {kPassOver, "a chunk's ancillary flag does not fit its type", "§3.2"};
   if (rule.verdict == kPassOver) return rule;
-  if (kind < ChunkKind::kAncillary && header.length > most_payload(kind))
-    return {kPassOver, "the payload of a chunk is too long", section_of_length(kind)};
+  if (kind < ChunkKind::kAncillary && header.length > most_payload(kind)) return rule_of_length(kind);
   if (kind == ChunkKind::kTail && !whole_) return {};  // that the index is gone is no news then
   return rule;
 }
@@ -213,17 +231,14 @@ OrderRule ChunkReader::rule_for(const ChunkHeader& header, ChunkKind kind) const
 /// Says what is wrong with a chunk by its header alone.
 ChunkReader::Event ChunkReader::refuse_header(const ChunkHeader& header, ChunkKind kind,
                                               const OrderRule& rule) {
-  if (rule.verdict == OrderRule::Verdict::kRefuse || !has_head()) {
-    Error error = kind == ChunkKind::kCritical && has_head()
-                      ? stream_error(ErrorCode::kUnsupportedVersion, rule.section,
-                                     {rule.fault, ": '", text(header.type), "'"})
-                      : malformed(rule.section, rule.fault);
-    error.byte_offset = offset_;
-    return fail(std::move(error));
-  }
-  const Event event = report(malformed(rule.section, rule.fault));
-  if (state_ == StreamState::kBody && (kind == ChunkKind::kMesh || kind == ChunkKind::kGop)) {
-    problem_.loses = true;
+  Error error = kind == ChunkKind::kCritical && has_head()
+                    ? stream_error(rule.code, rule.section, {rule.fault, ": '", text(header.type), "'"})
+                    : stream_error(rule.code, rule.section, {rule.fault});
+  error.byte_offset = offset_;
+  if (rule.verdict == OrderRule::Verdict::kRefuse || !has_head()) return fail(std::move(error));
+  const Event event = report(std::move(error));
+  if (in_sequence() && (kind == ChunkKind::kMesh || kind == ChunkKind::kPlan || kind == ChunkKind::kGop)) {
+    problem_.loses = kind != ChunkKind::kPlan;
     whole_ = false;
   }
   return event;
@@ -236,32 +251,49 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
   payload_left_ = chunk_.length;
   payload_hash_ = Hasher();
   hashed_ = true;
-  packet_index_ = 0;
-  // Whatever becomes of a mesh, the GOPs that follow are not those of the one before.
-  if (kind == ChunkKind::kMesh) has_mesh_ = false;
+  packet_number_ = 0;
+  digest_met_ = false;
+  enter_state(header, kind);
+  used_ = kChunkHeaderSize;
   if (kind == ChunkKind::kAncillary || verdict == OrderRule::Verdict::kPassOver) {
     phase_ = Phase::kPassOver;
   } else if (kind == ChunkKind::kGop) {
     phase_ = Phase::kPacket;
     if (!reserve_for_packets()) return fail(out_of_memory());
   } else {
-    phase_ = Phase::kPayload;
+    phase_ = kind == ChunkKind::kPlan ? Phase::kPlan : Phase::kPayload;
   }
-  // Head and tail change the state once they are read.
-  if (kind == ChunkKind::kIndex && state_ == StreamState::kBody && header.ancillary) {
-    index_offset_ = chunk_offset_;
-    state_ = StreamState::kIndex;
-  }
-  used_ = kChunkHeaderSize;
   return Event::kChunk;
+}
+
+/// The state that a chunk leads to, whatever its content is; head and tail change it once they are read.
+// format-spec §3.4
+void ChunkReader::enter_state(const ChunkHeader& header, ChunkKind kind) {
+  if (!in_sequence() || !flag_fits(header, kind)) return;
+  if (kind == ChunkKind::kMesh) state_ = StreamState::kBody;
+  if (kind == ChunkKind::kIndex) {
+    index_offset_ = chunk_offset_;
+    state_ = StreamState::kIndexed;
+  }
 }
 
 /// The longest payload that a chunk of this kind may have here.
 std::uint64_t ChunkReader::most_payload(ChunkKind kind) const {
-  if (kind == ChunkKind::kMesh) return most_mesh_bytes(head_.limits);
-  if (kind == ChunkKind::kIndex) return most_index_bytes(chunk_offset_);
-  if (kind == ChunkKind::kGop) return kMaxChunkLength;
-  return kMaxSmallPayload;
+  switch (kind) {
+    case ChunkKind::kHead:
+      return kMaxHeadPayload;
+    case ChunkKind::kData:
+      return kMaxDataPayload;
+    case ChunkKind::kMesh:
+      return head_.limits.mesh_bytes;
+    case ChunkKind::kPlan:
+    case ChunkKind::kGop:
+      return kMaxChunkLength;
+    case ChunkKind::kIndex:
+      return most_index_bytes(whole_ ? expected_index_.count() : chunk_offset_ / kLeastChunkSize);
+    default:
+      return kMaxMetadataPayload;
+  }
 }
 
 // format-spec §3.3
@@ -277,7 +309,7 @@ std::optional<ChunkReader::Event> ChunkReader::read_payload() {
     error.byte_offset = chunk_offset_;
     return lose_unproven(std::move(error), size);
   }
-  if (kind_ == ChunkKind::kMesh) mesh_checksum_ = actual;
+  payload_checksum_ = actual;
   used_ = size;
   content_ = payload;
   phase_ = Phase::kChunkHeader;
@@ -291,12 +323,26 @@ std::optional<ChunkReader::Event> ChunkReader::pass_payload() {
   payload_left_ -= bytes.size();
   consume(bytes.size());
   if (payload_left_ > 0 || available().size() < kChunkChecksumSize) return need_bytes();
-  const std::uint32_t expected = ByteReader(available()).u32();
+  payload_checksum_ = ByteReader(available()).u32();
   consume(kChunkChecksumSize);
   phase_ = Phase::kChunkHeader;
-  if (!hashed_ || expected == static_cast<std::uint32_t>(payload_hash_.value())) return std::nullopt;
-  return report(
-      stream_error(ErrorCode::kChecksumMismatch, "§3.3", {"chunk '", text(chunk_.type), "' is damaged"}));
+  return hashed_ ? end_payload() : std::nullopt;
+}
+
+/// A payload was passed over to its end.
+// format-spec §3.3
+std::optional<ChunkReader::Event> ChunkReader::end_payload() {
+  if (payload_checksum_ != static_cast<std::uint32_t>(payload_hash_.value())) {
+    if (kind_ == ChunkKind::kPlan || kind_ == ChunkKind::kMesh) whole_ = false;
+    return report(
+        stream_error(ErrorCode::kChecksumMismatch, "§3.3", {"chunk '", text(chunk_.type), "' is damaged"}));
+  }
+  if (!in_sequence() || !flag_fits(chunk_, kind_)) return std::nullopt;
+  if (kind_ == ChunkKind::kPlan) return use_plan();
+  if (kind_ != ChunkKind::kMesh) return std::nullopt;
+  // Too long to be read, but other meshes go out of force by it.
+  if (!note_mesh({0, ErrorCode::kLimitExceeded})) return fail(out_of_memory());
+  return std::nullopt;
 }
 
 // format-spec §8.3
@@ -312,10 +358,10 @@ std::optional<ChunkReader::Event> ChunkReader::search() {
   return need_bytes();
 }
 
-// format-spec §4.7
+// format-spec §3.4
 ChunkReader::Event ChunkReader::end_stream() {
   if (!available().empty()) {
-    Error error = malformed("§4.7", "bytes follow the stream's tail");
+    Error error = malformed("§3.4", "bytes follow the stream's tail");
     error.byte_offset = offset_;
     return fail(std::move(error));
   }

@@ -2,18 +2,29 @@
 #include "base/checksum.hpp"
 #include "container/chunk.hpp"
 #include "container/chunk_order.hpp"
+#include "container/chunk_window.hpp"
 #include "container/gop_header.hpp"
 #include "container/index.hpp"
 #include "container/mesh_payload.hpp"
+#include "container/packet.hpp"
+#include "container/plan_payload.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <tvg/types.hpp>
 
 namespace tvg {
+
+/// What the reader keeps of a mesh in force.
+struct MeshInForce {
+  std::uint32_t vertex_count = 0;
+  std::optional<ErrorCode> fault;  ///< why it cannot be used, if so
+};
 
 /// Takes a stream apart as its bytes arrive: the one reader of its structure (format-spec §3, §4, §8.3). It
 /// knows which chunk may stand where, how long each may be, and what the checksums say; what packets and
@@ -28,13 +39,14 @@ class ChunkReader {
     kChunk,     ///< a chunk begins: chunk(), chunk_offset()
     kHead,      ///< head()
     kMetadata,  ///< metadata()
-    kMesh,      ///< a mesh with counts that the head allows: mesh(), content() is the payload
-    kGop,       ///< a GOP with a frame count that the head allows: gop(), content() is the header packet
-    kOrphan,    ///< the same, but the mesh it belongs to is not there: the GOP is passed over
-    kFrame,     ///< content() is a frame's packet
+    kMesh,      ///< a mesh with counts that the head allows: mesh(), mesh_id(), content() is the payload
+    kGop,       ///< a GOP whose mesh is in force, in a known mode: gop(), content() is the header packet
+    kGopLost,   ///< the same, but it cannot be decoded: gop(), problem(); the GOP is passed over
+    kFrame,     ///< content() is a frame's packet, predictor()
     kDigest,    ///< content() is the digest of the GOP
+    kPacket,    ///< a packet of the GOP that may be skipped
     kGopEnd,    ///< all checksums of the GOP fit
-    kIndex,     ///< index(), index_matches()
+    kIndex,     ///< take_index(), index_matches()
     kProblem,   ///< problem()
     kEnd,       ///< the tail was read, and nothing follows
     kFailed,    ///< error() says why nothing more can be read
@@ -45,6 +57,7 @@ class ChunkReader {
     Error error;
     bool loses = false;      ///< what was being read cannot be used: the rest of a GOP, or some chunk
     bool searching = false;  ///< chunks that follow may be passed over unseen
+    bool doubts = false;     ///< the frames of the GOP that were given out are in doubt, too
   };
 
   explicit ChunkReader(const DecoderLimits& limits) : caller_limits_(limits) {}
@@ -56,16 +69,18 @@ class ChunkReader {
   /// The next event. What it names is valid until the next call of push() or next().
   Event next();
 
-  /// The content given out last is malformed though its checksum fits: a mesh is not in force, of a GOP the
-  /// rest is passed over and the next chunk looked for.
-  void reject();
-  /// Passes over the rest of the current GOP or chunk unread.
+  /// The content given out last cannot be used though its checksum fits. Of a GOP the rest is passed over;
+  /// what is malformed may be damage by chance, so that the next chunk is looked for. A mesh stays in force
+  /// as one that cannot be used.
+  void reject(ErrorCode why);
+  /// Passes over the rest of the current GOP unread.
   void pass_over();
   /// While a chunk is passed over: how many of the bytes that come next in the input belong to it. They
   /// count as pushed.
   std::uint64_t skip();
-  /// Goes on at the chunk at this place, whatever was read before. The head must have been read.
-  void jump(std::uint64_t new_offset);
+  /// Goes on at the chunk at this place, whatever was read before; of the meshes in force those stay whose
+  /// chunks begin at one of these places. The head must have been read.
+  void jump(std::uint64_t new_offset, std::span<const std::uint64_t> meshes);
   /// Ends reading with this error.
   Event fail(Error error);
 
@@ -74,17 +89,17 @@ class ChunkReader {
   Metadata take_metadata() { return std::exchange(metadata_, {}); }
   /// Its parts lie in the bytes given out: they are valid no longer than content().
   const MeshLayout& mesh() const { return mesh_; }
-  /// Checksum of the payload of the mesh in force, and where its chunk begins.
-  std::uint32_t mesh_checksum() const { return mesh_checksum_; }
-  std::uint64_t mesh_offset() const { return mesh_offset_; }
-  bool has_mesh() const { return has_mesh_; }
-  /// Its flags are valid no longer than content().
+  std::uint32_t mesh_id() const { return payload_checksum_; }
+  const ChunkWindow<MeshInForce>& meshes() const { return meshes_; }
+  /// Its parts are valid no longer than content().
   const GopHeader& gop() const { return gop_; }
+  /// Of kGop: where the chunk of its mesh begins.
+  std::uint64_t gop_mesh_offset() const { return gop_mesh_offset_; }
+  Predictor predictor() const { return predictor_; }
   Bytes content() const { return content_; }
   /// The bytes of the structure given out last as they stand in the stream: of kChunk the chunk's header, of
   /// the others all from the end of the structure before. A chunk is the sum of its structures.
   Bytes raw() const { return available().first(used_); }
-  const std::vector<IndexEntry>& index() const { return index_; }
   /// Hands out what kIndex tells of; empty from then on.
   std::vector<IndexEntry> take_index() { return std::exchange(index_, {}); }
   /// False when the index names other chunks than were met; true also when that cannot be known.
@@ -111,6 +126,7 @@ class ChunkReader {
     kStart,
     kChunkHeader,
     kPayload,   ///< a payload that is used whole
+    kPlan,      ///< one of planes, of which the front is kept
     kPassOver,  ///< one that is not used
     kPacket,
     kGopChecksum,
@@ -129,22 +145,34 @@ class ChunkReader {
   std::optional<Event> read_payload();
   std::optional<Event> use_payload(Bytes payload);
   Event use_head(Bytes payload);
-  Event use_mesh(Bytes payload);
+  std::optional<Event> use_mesh(Bytes payload);
   Event use_index(Bytes payload);
   std::optional<Event> use_tail(Bytes payload);
+  std::optional<Event> begin_plan();
   std::optional<Event> pass_payload();
+  std::optional<Event> end_payload();
+  std::optional<Event> use_plan();
   std::optional<Event> next_packet();
-  Event use_packet(std::uint32_t packet_checksum);
+  Event use_packet(const PacketRead& packet);
+  Event use_gop_header();
+  using PlaneNumbers = std::array<std::uint64_t, 256>;
+  bool find_planes(PlaneNumbers& back) const;
+  bool note_mesh(MeshInForce mesh);
+  Event misplaced(const char* sentence);
+  Event lose_gop(Error error);
+  std::optional<Event> end_packets();
   std::optional<Event> end_gop();
   std::optional<Event> search();
   Event end_stream();
 
+  void enter_state(const ChunkHeader& header, ChunkKind kind);
   std::uint64_t most_payload(ChunkKind kind) const;
   bool reserve_for_packets();
   std::optional<Event> need_bytes();
   Event report(Error error);
   Event lose(Error error, std::size_t passed);
   Event lose_unproven(Error error, std::size_t size);
+  bool in_sequence() const { return state_ == StreamState::kOpen || state_ == StreamState::kBody; }
   void begin_search(std::size_t passed);
 
   Bytes available() const { return Bytes(buffer_).subspan(begin_); }
@@ -172,16 +200,22 @@ class ChunkReader {
   bool hashed_ = true;  ///< the payload is to be compared with its checksum
   Bytes content_;
 
-  bool has_mesh_ = false;
+  std::uint32_t payload_checksum_ = 0;  ///< of the payload used last
   MeshLayout mesh_{};
-  std::uint32_t mesh_checksum_ = 0;
-  std::uint64_t mesh_offset_ = 0;
+  ChunkWindow<MeshInForce> meshes_;
+  std::array<std::uint8_t, PlanHeader::kMostBytes> plan_front_{};  ///< of the payload being passed over
+  struct NothingKept {};
+  ChunkWindow<NothingKept> plans_;
 
-  GopHeader gop_{};
-  std::uint32_t packet_index_ = 0;     ///< 0: header, 1 to frame_count: frames, then the digest
+  GopHeader gop_;
+  std::uint64_t gop_mesh_offset_ = 0;
+  Predictor predictor_ = Predictor::kSpace;
+  std::uint32_t packet_number_ = 0;    ///< of the next packet: 0 the header
+  std::uint32_t frames_met_ = 0;       ///< of the GOP
+  bool digest_met_ = false;            ///< of the GOP
   std::uint32_t header_checksum_ = 0;  ///< of the header packet
 
-  ExpectedIndex expected_index_;
+  IndexDigest expected_index_;  ///< of the chunks met
   std::vector<IndexEntry> index_;
   bool index_matches_ = true;
   std::optional<std::uint64_t> index_offset_;

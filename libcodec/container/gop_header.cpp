@@ -2,57 +2,50 @@
 
 #include "base/stream_error.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace tvg {
+
+namespace {
+
+constexpr std::uint64_t kMostFirstFrame = std::uint64_t{1} << 62;
+constexpr std::uint64_t kMostPackets = 0x7FFFFFFF;
+constexpr std::uint64_t kMostPlanes = 256;
+
+}  // namespace
 
 std::vector<std::uint8_t> write_gop_header(const GopHeader& header) {
   ByteWriter writer;
-  writer.u8(0);  // mode 0: frames on the lattice
-  writer.u8(header.predictor);
-  writer.u8(header.fine_bits);
-  writer.u8(header.coarse_bits);
-  for (const double coordinate : header.origin) writer.f64(coordinate);
-  writer.f64(header.step);
+  writer.u32(header.mesh);
   writer.varint(header.first_frame);
   writer.varint(header.frame_count);
-  writer.bytes(header.flags);
+  writer.varint(header.packet_count);
+  writer.varint(header.plane_count());
+  writer.bytes(header.planes);
+  writer.varint(header.mode);
+  writer.bytes(header.fields);
   return writer.take();
 }
 
 // format-spec §4.5.1
 Result<GopHeader> read_gop_header(Bytes packet) {
   ByteReader reader(packet);
-  GopHeader header{};
-  const std::uint8_t mode = reader.u8();
-  header.predictor = reader.u8();
-  header.fine_bits = reader.u8();
-  header.coarse_bits = reader.u8();
-  for (double& coordinate : header.origin) coordinate = reader.f64();
-  header.step = reader.f64();
+  GopHeader header;
+  header.mesh = reader.u32();
   header.first_frame = reader.varint();
   const std::uint64_t frame_count = reader.varint();
+  const std::uint64_t packet_count = reader.varint();
+  const std::uint64_t planes = reader.varint();
   if (!reader.ok()) return malformed("§4.5.1", "the GOP's header is too short");
-  if (mode != 0 || header.predictor > static_cast<std::uint8_t>(Predictor::kElp)) {
-    return malformed("§4.5.1", "the GOP's mode or predictor is unknown");
-  }
-  if (header.coarse_bits < kMinBits || header.coarse_bits > header.fine_bits || header.fine_bits > kMaxBits) {
-    return malformed("§4.5.1", "the GOP's bits are out of range");
-  }
-  const bool finite =
-      std::all_of(header.origin.begin(), header.origin.end(), [](double x) { return std::isfinite(x); });
-  if (!finite || !std::isfinite(header.step) || header.step <= 0) {
-    return malformed("§4.5.1", "the GOP's lattice has no finite origin or no positive step");
-  }
-  if (frame_count == 0 || frame_count > 0xFFFFFFFF || header.first_frame > (std::uint64_t{1} << 62)) {
+  if (frame_count == 0 || frame_count > 0xFFFFFFFF || header.first_frame > kMostFirstFrame)
     return malformed("§4.5.1", "the GOP's frame numbers are out of range");
-  }
+  if (packet_count <= frame_count || packet_count > kMostPackets)
+    return malformed("§4.5.1", "the number of the GOP's packets is out of range");
+  if (planes > kMostPlanes) return malformed("§4.5.1", "the GOP names too many planes");
   header.frame_count = static_cast<std::uint32_t>(frame_count);
-  header.flags = reader.bytes(reader.left());
-  if (header.fine_bits == header.coarse_bits && !header.flags.empty()) {
-    return malformed("§4.5.1", "a GOP with one lattice carries flags");
-  }
+  header.packet_count = static_cast<std::uint32_t>(packet_count);
+  header.planes = reader.bytes(4 * planes);
+  header.mode = reader.varint();
+  if (!reader.ok()) return malformed("§4.5.1", "the GOP's header is too short");
+  header.fields = reader.bytes(reader.left());
   return header;
 }
 

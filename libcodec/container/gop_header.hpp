@@ -1,7 +1,6 @@
 #pragma once
 #include "base/byte_io.hpp"
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -9,15 +8,20 @@
 
 namespace tvg {
 
-/// §4.5.1: the first packet of a GOP.
+/// Mode elp, the only one so far (format-spec §4.5.1).
+inline constexpr std::uint64_t kModeElp = 0;
+
+/// §4.5.1: the first packet of a GOP, as far as it does not depend on the mode.
 struct GopHeader {
-  std::uint64_t first_frame;  ///< number of the first frame in the sequence it was encoded from
-  std::uint32_t frame_count;
-  std::uint8_t predictor;
-  std::uint8_t fine_bits, coarse_bits;
-  std::array<double, 3> origin;
-  double step;
-  Bytes flags;  ///< coded flags; empty unless fine_bits > coarse_bits
+  std::uint32_t mesh = 0;         ///< id of the mesh
+  std::uint64_t first_frame = 0;  ///< number of the first frame in the sequence it was encoded from
+  std::uint32_t frame_count = 0;
+  std::uint32_t packet_count = 0;  ///< behind this one
+  Bytes planes;                    ///< ids of planes, four bytes each
+  std::uint64_t mode = kModeElp;
+  Bytes fields;  ///< those of the mode
+
+  std::size_t plane_count() const { return planes.size() / 4; }
 };
 std::vector<std::uint8_t> write_gop_header(const GopHeader& header);
 Result<GopHeader> read_gop_header(Bytes packet);

@@ -2,6 +2,7 @@
 
 #include "base/allocation.hpp"
 #include "base/stream_error.hpp"
+#include "container/numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,16 +10,73 @@
 
 namespace tvg {
 
+namespace {
+
+// Keys of bounds (format-spec §4.1).
+enum Key : std::uint64_t {
+  kVertices = 1,
+  kFaces = 3,
+  kFramesPerGop = 5,
+  kPacketBytes = 7,
+  kDecoderMemory = 9,
+  kMeshes = 11,
+  kMeshBytes = 13,
+};
+constexpr std::array kKeys = {kVertices,      kFaces,  kFramesPerGop, kPacketBytes,
+                              kDecoderMemory, kMeshes, kMeshBytes};
+
+/// The 32-bit bound with this key; null for decoder_memory and keys that are not known.
+std::uint32_t* bound_of(StreamLimits& limits, std::uint64_t key) {
+  switch (key) {
+    case kVertices:
+      return &limits.vertices;
+    case kFaces:
+      return &limits.faces;
+    case kFramesPerGop:
+      return &limits.frames_per_gop;
+    case kPacketBytes:
+      return &limits.packet_bytes;
+    case kMeshes:
+      return &limits.meshes;
+    case kMeshBytes:
+      return &limits.mesh_bytes;
+    default:
+      return nullptr;
+  }
+}
+
+Status check_version(const StreamHead& head) {
+  if (head.major == kFormatMajor && head.minor == kFormatMinor) return {};
+  const auto name = [](int major, int minor) { return std::to_string(major) + "." + std::to_string(minor); };
+  const bool older = head.major == 0 && head.minor < kFormatMinor;
+  return stream_error(
+      ErrorCode::kUnsupportedVersion, "§4.1",
+      {"the stream has format version ", name(head.major, head.minor), ", this decoder reads ",
+       name(kFormatMajor, kFormatMinor), older ? ": encode it anew" : ": a later release is needed"});
+}
+
+/// A bound as it is read; false where its value is out of range.
+bool take_bound(StreamLimits& limits, std::uint64_t key, std::uint64_t value) {
+  if (key == kDecoderMemory) {
+    limits.decoder_memory = value;
+    return value < (std::uint64_t{1} << 63);
+  }
+  if (value > 0xFFFFFFFF || (key == kMeshes && (value == 0 || value > kMaxMeshesInForce))) return false;
+  *bound_of(limits, key) = static_cast<std::uint32_t>(value);
+  return true;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> write_head(const StreamLimits& limits) {
   ByteWriter head;
   head.u16(kFormatMajor);
   head.u16(kFormatMinor);
-  head.u32(0);
-  head.u32(limits.vertices);
-  head.u32(limits.faces);
-  head.u32(limits.frames_per_gop);
-  head.u32(limits.packet_bytes);
-  head.u64(limits.decoder_memory);
+  StreamLimits bounds = limits;
+  for (const Key key : kKeys) {
+    head.varint(key);
+    head.varint(key == kDecoderMemory ? bounds.decoder_memory : *bound_of(bounds, key));
+  }
   return head.take();
 }
 
@@ -30,25 +88,24 @@ Result<StreamHead> read_head(Bytes payload) {
   head.major = reader.u16();
   head.minor = reader.u16();
   if (!reader.ok()) return malformed("§4.1", "the head is too short");
-  if (head.major != kFormatMajor || head.minor > kFormatMinor) {
-    const auto name = [](int major, int minor) {
-      return std::to_string(major) + "." + std::to_string(minor);
-    };
-    return stream_error(ErrorCode::kUnsupportedVersion, "§4.1",
-                        {"the stream has format version ", name(head.major, head.minor),
-                         ", this decoder reads up to ", name(kFormatMajor, kFormatMinor)});
+  if (Status version = check_version(head); !version.ok()) return version.error();
+  std::size_t known = 0;
+  for (AscendingNumbers keys; reader.left() > 0;) {
+    const std::uint64_t key = reader.varint();
+    const std::uint64_t value = reader.varint();
+    if (!reader.ok()) return malformed("§4.1", "the bounds of the head do not fill it exactly");
+    if (!keys.take(key)) return malformed("§3.5", "the keys of the head do not ascend");
+    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
+      if (!is_required(key)) continue;
+      return stream_error(ErrorCode::kUnsupportedVersion, "§4.1",
+                          {"the stream needs a decoder that knows the bound with key ", std::to_string(key)});
+    }
+    ++known;
+    if (!take_bound(head.limits, key, value)) return malformed("§4.1", "a bound of the head is out of range");
   }
-  const std::uint32_t reserved = reader.u32();
-  head.limits.vertices = reader.u32();
-  head.limits.faces = reader.u32();
-  head.limits.frames_per_gop = reader.u32();
-  head.limits.packet_bytes = reader.u32();
-  head.limits.decoder_memory = reader.u64();
-  if (!reader.finished() || reserved != 0)
-    return malformed("§4.1", "the head has a wrong size or reserved bits set");
-  if (head.limits.decoder_memory != decoder_memory_needed(head.limits)) {
-    return malformed("§4.1", "the declared decoder memory does not follow from the declared limits");
-  }
+  if (known < kKeys.size()) return malformed("§4.1", "the head lacks a bound");
+  if (head.limits.decoder_memory < decoder_memory_needed(head.limits))
+    return malformed("§4.1", "the declared decoder memory is less than the declared bounds need");
   return head;
 }
 
@@ -63,6 +120,8 @@ Status check_declared(const StreamLimits& declared, const DecoderLimits& allowed
       Bound{"faces", declared.faces, allowed.faces},
       Bound{"frames per GOP", declared.frames_per_gop, allowed.frames_per_gop},
       Bound{"bytes per packet", declared.packet_bytes, allowed.packet_bytes},
+      Bound{"meshes in force", declared.meshes, allowed.meshes},
+      Bound{"bytes per mesh", declared.mesh_bytes, allowed.mesh_bytes},
       Bound{"bytes of decoder memory", declared.decoder_memory, allowed.memory},
   };
   for (const Bound& bound : bounds) {
@@ -81,7 +140,9 @@ StreamLimits larger_limits(const StreamLimits& a, const StreamLimits& b) {
   limits.faces = std::max(a.faces, b.faces);
   limits.frames_per_gop = std::max(a.frames_per_gop, b.frames_per_gop);
   limits.packet_bytes = std::max(a.packet_bytes, b.packet_bytes);
-  limits.decoder_memory = decoder_memory_needed(limits);
+  limits.meshes = std::max(a.meshes, b.meshes);
+  limits.mesh_bytes = std::max(a.mesh_bytes, b.mesh_bytes);
+  limits.decoder_memory = std::max({a.decoder_memory, b.decoder_memory, decoder_memory_needed(limits)});
   return limits;
 }
 

@@ -5,71 +5,131 @@
 #include "container/chunk.hpp"
 
 #include <array>
+#include <utility>
 
 namespace tvg {
+
+namespace {
+
+constexpr std::uint64_t kMostOffset = std::uint64_t{1} << 62;
+
+/// What is wrong with an index, found while it is read.
+struct Fault {
+  const char* sentence = nullptr;
+};
+
+/// Reads entry after entry.
+class IndexReader {
+ public:
+  IndexReader(Bytes payload, std::uint64_t index_offset) : reader_(payload), index_offset_(index_offset) {}
+
+  Result<Index> run() {
+    const std::uint64_t count = reader_.varint();
+    if (!reader_.ok() || count > reader_.left() / kLeastEntryBytes)
+      return malformed("§4.6", "more index entries than bytes can hold");
+    if (!try_reserve(index_.entries, static_cast<std::size_t>(count))) return out_of_memory();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (const Fault fault = read_entry(); fault.sentence != nullptr)
+        return malformed("§4.6", fault.sentence);
+    }
+    if (!reader_.finished()) return malformed("§4.6", "index entries do not fill the chunk exactly");
+    return std::move(index_);
+  }
+
+ private:
+  static constexpr std::uint64_t kLeastEntryBytes = 3;
+
+  Fault read_entry() {
+    const std::uint64_t kind = reader_.varint();
+    const std::uint64_t distance = reader_.varint();
+    ByteReader fields(reader_.bytes(reader_.varint()));
+    if (!reader_.ok()) return {"index entries do not fill the chunk exactly"};
+    if (distance == 0 || distance > kMostOffset - offset_) return {"an index entry is out of range"};
+    offset_ += distance;
+    if (offset_ >= index_offset_) return {"an index entry points behind the index"};
+    using Kind = IndexEntry::Kind;
+    if (kind == 0 || kind > static_cast<std::uint64_t>(Kind::kDependentGop)) return {};
+    IndexEntry entry;
+    entry.kind = static_cast<Kind>(kind);
+    entry.offset = offset_;
+    std::size_t planes = 0;
+    if (entry.kind == Kind::kMesh) ++meshes_;
+    if (entry.kind == Kind::kPlan) ++planes_;
+    if (entry.is_gop() && !read_gop(fields, entry, planes)) return {"a GOP's index entry is out of range"};
+    if (!fields.finished()) return {"the fields of an index entry do not fill it exactly"};
+    index_.entries.push_back(entry);
+    index_.digest.add(entry, PlanesBack(back_).first(planes));
+    return {};
+  }
+
+  bool read_gop(ByteReader& fields, IndexEntry& entry, std::size_t& planes) {
+    const std::uint64_t frames = fields.varint();
+    const std::uint64_t meshes_back = fields.varint();
+    const std::uint64_t count = fields.varint();
+    if (!fields.ok() || frames == 0 || frames > 0xFFFFFFFF || meshes_back == 0 || meshes_back > meshes_ ||
+        meshes_back > 0xFFFFFFFF || count > back_.size()) {
+      return false;
+    }
+    entry.frame_count = static_cast<std::uint32_t>(frames);
+    entry.meshes_back = static_cast<std::uint32_t>(meshes_back);
+    for (; planes < count; ++planes) {
+      back_[planes] = fields.varint();
+      if (!fields.ok() || back_[planes] == 0 || back_[planes] > planes_) return false;
+    }
+    return true;
+  }
+
+  ByteReader reader_;
+  std::uint64_t index_offset_;
+  Index index_;
+  std::uint64_t offset_ = 0;
+  std::uint64_t meshes_ = 0, planes_ = 0;  ///< entries so far
+  std::array<std::uint64_t, 256> back_{};
+};
+
+}  // namespace
+
+void IndexDigest::add(const IndexEntry& entry, PlanesBack planes) {
+  const auto hash = [this](std::uint64_t value) {
+    const std::array halves = {static_cast<std::int32_t>(value), static_cast<std::int32_t>(value >> 32)};
+    hash_.update(std::span<const std::int32_t>(halves));
+  };
+  for (const std::uint64_t value :
+       {static_cast<std::uint64_t>(entry.kind), entry.offset, std::uint64_t{entry.frame_count},
+        std::uint64_t{entry.meshes_back}, std::uint64_t{planes.size()}}) {
+    hash(value);
+  }
+  for (const std::uint64_t back : planes) hash(back);
+  ++count_;
+}
 
 std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries) {
   ByteWriter writer;
   writer.varint(entries.size());
   std::uint64_t offset = 0;
   for (const IndexEntry& entry : entries) {
-    writer.varint(entry.kind == IndexEntry::Kind::kMesh ? 0 : entry.frame_count);
+    writer.varint(static_cast<std::uint64_t>(entry.kind));
     writer.varint(entry.offset - offset);
     offset = entry.offset;
+    ByteWriter fields;
+    if (entry.is_gop()) {
+      fields.varint(entry.frame_count);
+      fields.varint(entry.meshes_back);
+      fields.varint(0);  // planes: no mode that this library writes has any
+    }
+    writer.varint(fields.data().size());
+    writer.bytes(fields.data());
   }
   return writer.take();
 }
 
-std::uint64_t most_index_bytes(std::uint64_t offset) {
-  constexpr std::uint64_t kMostCountBytes = 10;
-  constexpr std::uint64_t kMostEntryBytes = 5 + 9;  // frames below 2^32, a distance up to 2^62
-  return kMostCountBytes + kMostEntryBytes * (offset / kLeastChunkSize);
+std::uint64_t most_index_bytes(std::uint64_t entries) {
+  return (std::uint64_t{1} << 20) + 1024 * entries;
 }
 
 // format-spec §4.6
-Result<std::vector<IndexEntry>> read_index(Bytes payload, std::uint64_t index_offset) {
-  ByteReader reader(payload);
-  const std::uint64_t count = reader.varint();
-  if (count > reader.left() / 2 || count > index_offset / kLeastChunkSize)
-    return malformed("§4.6", "more index entries than bytes can hold");
-  std::vector<IndexEntry> entries;
-  if (!try_reserve(entries, static_cast<std::size_t>(count))) return out_of_memory();
-  std::uint64_t offset = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const std::uint64_t frames = reader.varint();
-    const std::uint64_t distance = reader.varint();
-    if (!reader.ok() || distance == 0 || distance > (std::uint64_t{1} << 62) - offset ||
-        frames > 0xFFFFFFFF) {
-      return malformed("§4.6", "an index entry is out of range");
-    }
-    offset += distance;
-    if (offset >= index_offset) return malformed("§4.6", "an index entry points behind the index");
-    entries.push_back({frames == 0 ? IndexEntry::Kind::kMesh : IndexEntry::Kind::kGop, offset,
-                       static_cast<std::uint32_t>(frames)});
-  }
-  if (!reader.finished()) return malformed("§4.6", "index entries do not fill the chunk exactly");
-  return entries;
-}
-
-void ExpectedIndex::add(std::uint64_t offset, std::uint32_t frame_count) {
-  if (offset <= last_offset_) return;
-  std::array<std::uint8_t, 20> bytes;
-  std::size_t size = 0;
-  for (std::uint64_t value : {std::uint64_t{frame_count}, offset - last_offset_}) {
-    for (; value >= 0x80; value >>= 7) bytes[size++] = static_cast<std::uint8_t>(value | 0x80);
-    bytes[size++] = static_cast<std::uint8_t>(value);
-  }
-  digest_.update(Bytes(bytes).first(size));
-  last_offset_ = offset;
-  ++count_;
-}
-
-bool ExpectedIndex::matches(Bytes payload) const {
-  ByteReader reader(payload);
-  if (reader.varint() != count_ || !reader.ok()) return false;
-  Hasher digest;
-  digest.update(payload.subspan(reader.position()));
-  return digest.value() == digest_.value();
+Result<Index> read_index(Bytes payload, std::uint64_t index_offset) {
+  return IndexReader(payload, index_offset).run();
 }
 
 std::vector<std::uint8_t> write_tail(std::uint64_t index_distance) {
@@ -102,7 +162,9 @@ Result<ByteRange> locate_index(std::span<const std::uint8_t> tail, std::uint64_t
 Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk) {
   const Result<Bytes> payload = read_whole_chunk(chunk, kIndexChunk, "§4.6");
   if (!payload) return payload.error();
-  return read_index(*payload);
+  Result<Index> index = read_index(*payload);
+  if (!index) return index.error();
+  return std::move(index->entries);
 }
 
 }  // namespace tvg

@@ -12,30 +12,38 @@
 // The index and the tail that leads to it (format-spec §4.6, §4.7).
 namespace tvg {
 
-std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries);
-/// The entries of an index that stands at `offset` of its stream: all lie before it, and no two nearer to
-/// each other than a chunk is long, which bounds their number.
-Result<std::vector<IndexEntry>> read_index(Bytes payload, std::uint64_t offset = ~std::uint64_t{0});
+/// Planes that a GOP names (§4.5.1), as its index entry has them: each so many planes back.
+using PlanesBack = std::span<const std::uint64_t>;
 
-/// The longest payload an index at `offset` of a stream can have.
-std::uint64_t most_index_bytes(std::uint64_t offset);
+/// The entries of an index, as a digest: a live stream may run for days, and a list would grow.
+class IndexDigest {
+ public:
+  void add(const IndexEntry& entry, PlanesBack planes = {});
+  std::uint64_t count() const { return count_; }
+  bool operator==(const IndexDigest& other) const {
+    return count_ == other.count_ && hash_.value() == other.hash_.value();
+  }
+
+ private:
+  Hasher hash_;
+  std::uint64_t count_ = 0;
+};
+
+std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries);
+
+/// An index as it was read.
+struct Index {
+  std::vector<IndexEntry> entries;  ///< those of known kinds
+  IndexDigest digest;               ///< of these, with the planes of GOPs
+};
+/// An index that stands at `offset` of its stream: all entries lie before it.
+Result<Index> read_index(Bytes payload, std::uint64_t offset = ~std::uint64_t{0});
+
+/// The longest payload of an index with so many meshes, planes and GOPs.
+std::uint64_t most_index_bytes(std::uint64_t entries);
 
 /// Distance in bytes from the start of the tail chunk back to the start of the index chunk.
 std::vector<std::uint8_t> write_tail(std::uint64_t index_distance);
 Result<std::uint64_t> read_tail(Bytes payload);
-
-/// The index that the meshes and GOPs met should have, as a digest: a live stream may run for days, and a
-/// list would grow.
-class ExpectedIndex {
- public:
-  /// Takes note of a mesh (no frames) or GOP; one that lies before the last is known already.
-  void add(std::uint64_t offset, std::uint32_t frame_count);
-  bool matches(Bytes payload) const;
-
- private:
-  Hasher digest_;
-  std::uint64_t count_ = 0;
-  std::uint64_t last_offset_ = 0;
-};
 
 }  // namespace tvg

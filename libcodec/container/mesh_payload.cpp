@@ -1,34 +1,74 @@
 #include "container/mesh_payload.hpp"
 
+#include "base/allocation.hpp"
 #include "base/stream_error.hpp"
+#include "container/chunk.hpp"
+#include "container/numbers.hpp"
+
+#include <algorithm>
+#include <string>
 
 namespace tvg {
+
+namespace {
+
+// Kinds of sections.
+constexpr std::uint64_t kConnectivity = 1;
+constexpr std::uint64_t kVertexOrder = 3;
+
+void write_section(ByteWriter& writer, std::uint64_t kind, Bytes content) {
+  writer.varint(kind);
+  writer.varint(content.size());
+  writer.bytes(content);
+}
+
+}  // namespace
 
 std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh) {
   ByteWriter writer;
   writer.varint(mesh.vertex_count);
   writer.varint(mesh.face_count);
-  writer.u8(mesh.keeps_order ? 1 : 0);
-  writer.varint(mesh.connectivity.size());
-  writer.bytes(mesh.connectivity);
-  writer.bytes(mesh.order);
+  write_section(writer, kConnectivity, mesh.connectivity);
+  if (mesh.keeps_order) write_section(writer, kVertexOrder, mesh.order);
   return writer.take();
 }
 
 // format-spec §4.3
 Result<MeshLayout> read_mesh(Bytes payload) {
   ByteReader reader(payload);
+  MeshLayout mesh{};
   const std::uint64_t vertices = reader.varint();
   const std::uint64_t faces = reader.varint();
-  const std::uint8_t order = reader.u8();
-  const Bytes connectivity = reader.bytes(reader.varint());
   if (!reader.ok()) return malformed("§4.3", "the mesh chunk is too short");
-  if (vertices == 0 || vertices > kMaxVertexCount || faces >= 0x80000000u || order > 1) {
-    return malformed("§4.3", "the mesh's counts or flags are out of range");
+  if (vertices == 0 || vertices > kMaxVertexCount || faces >= 0x80000000u)
+    return malformed("§4.3", "the mesh's counts are out of range");
+  mesh.vertex_count = static_cast<std::uint32_t>(vertices);
+  mesh.face_count = static_cast<std::uint32_t>(faces);
+  bool has_connectivity = false;
+  for (AscendingNumbers kinds; reader.left() > 0;) {
+    const std::uint64_t kind = reader.varint();
+    const Bytes content = reader.bytes(reader.varint());
+    if (!reader.ok()) return malformed("§4.3", "the sections of the mesh do not fill its chunk exactly");
+    if (!kinds.take(kind)) return malformed("§3.5", "the sections of the mesh do not ascend");
+    if (kind == kConnectivity) {
+      has_connectivity = true;
+      mesh.connectivity = content;
+    } else if (kind == kVertexOrder) {
+      mesh.keeps_order = true;
+      mesh.order = content;
+    } else if (is_required(kind)) {
+      if (!can_allocate(kSmallThings)) return out_of_memory();
+      return stream_error(ErrorCode::kUnsupported, "§4.3",
+                          {"the mesh needs a decoder that knows its section ", std::to_string(kind)});
+    }
   }
-  if (order == 0 && reader.left() != 0) return malformed("§4.3", "bytes follow a mesh without vertex order");
-  return MeshLayout{static_cast<std::uint32_t>(vertices), static_cast<std::uint32_t>(faces), order == 1,
-                    connectivity, reader.bytes(reader.left())};
+  if (!has_connectivity) return malformed("§4.3", "the mesh has no connectivity");
+  return mesh;
+}
+
+std::uint32_t most_mesh_bytes(const StreamLimits& limits) {
+  const std::uint64_t bytes = 64 + 16 * (std::uint64_t{limits.vertices} + limits.faces);
+  return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, kMaxChunkLength));
 }
 
 // format-spec §4.1

@@ -8,19 +8,18 @@
 
 namespace tvg {
 
-/// §4.3: counts and the two coded parts; `order` is empty when the vertex order was given up.
+/// §4.3: counts and the sections that this version knows.
 struct MeshLayout {
   std::uint32_t vertex_count, face_count;
-  bool keeps_order;
+  bool keeps_order;  ///< there is a section with the vertex order; otherwise it was given up
   Bytes connectivity, order;
 };
 std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh);
+/// kUnsupported where there is a section that this version does not know and must.
 Result<MeshLayout> read_mesh(Bytes payload);
 
-/// The longest payload a mesh chunk of such a stream may have.
-constexpr std::uint64_t most_mesh_bytes(const StreamLimits& limits) {
-  return 64 + 16 * (std::uint64_t{limits.vertices} + limits.faces);
-}
+/// A bound of what a mesh chunk of such a stream may take.
+std::uint32_t most_mesh_bytes(const StreamLimits& limits);
 
 /// Whether a mesh is as small as the head says.
 Status check_mesh_size(const MeshLayout& mesh, const StreamLimits& limits);

@@ -1,10 +1,13 @@
 #pragma once
 #include "connectivity/mesh_coder.hpp"
 #include "container/chunk_reader.hpp"
+#include "container/chunk_window.hpp"
 #include "decoder/damage.hpp"
 #include "modes/gop_decoder.hpp"
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,26 +28,31 @@ class Decoder::State {
 
   // What the caller sees.
   ChunkReader reader;
-  CodedMesh mesh;
+  std::shared_ptr<const CodedMesh> mesh = std::make_shared<const CodedMesh>();  ///< that of the frames
   GopDecoder gop;
   GopInfo gop_info;
   std::uint64_t frame_number = 0;
   std::uint64_t frame_bytes = 0;
+  Predictor frame_predictor = Predictor::kSpace;
   std::array<double, 3> frame_bits{};
   ChunkInfo chunk_info;
   Metadata metadata;
   Damage damage;
   std::vector<IndexEntry> index;
   /// Decodes a frame and fills frame_bits; null while nobody asks for bits.
-  Status (GopDecoder::*measured_take)(Bytes, std::array<double, 3>&) = nullptr;
+  Status (GopDecoder::*measured_take)(Bytes, Predictor, std::array<double, 3>&) = nullptr;
 
  private:
   /// What the next structure of the stream yields; nothing where it is of no interest outside.
   std::optional<Event> step();
   Event take_chunk();
   std::optional<Event> take_mesh();
+  Result<std::shared_ptr<const CodedMesh>> decode_mesh_read() const;
+  bool show(std::shared_ptr<const CodedMesh> next);
   std::optional<Event> begin_gop();
-  Event lose_orphan();
+  Event reject_gop(std::uint64_t missing, Error cause);
+  std::optional<Event> lose_gop();
+  void note_gop();
   std::optional<Event> decode_frame();
   std::optional<Event> end_gop();
   std::optional<Event> take_index();
@@ -60,15 +68,20 @@ class Decoder::State {
   }
 
   void jump(const StreamMap::Place& place);
+  const StreamMap::Place* next_stop() const;
+  bool is_on_the_way(std::uint64_t missing) const;
   std::optional<Event> pass_gop(std::uint64_t missing);
   std::optional<Event> check_place();
   const StreamMap::Place* indexed_place() const;
 
-  DamageLedger frames_;            ///< which are missing
-  std::optional<Event> deferred_;  ///< to be given out next
-  std::uint64_t gop_end_ = 0;      ///< number of the frame behind the GOP being read; 0 outside
+  DamageLedger frames_;  ///< which are missing
+  /// To be given out next, in this order.
+  std::array<std::optional<Event>, 2> deferred_;
+  ChunkWindow<std::shared_ptr<const CodedMesh>> meshes_;  ///< those in force that could be decoded
+  std::uint64_t gop_end_ = 0;  ///< number of the frame behind the GOP being read; 0 outside
   StreamMap map_;
   std::optional<std::uint64_t> target_;  ///< the frame sought: frames before it are not given out
+  std::vector<std::uint64_t> needed_;    ///< where the meshes begin that the way there leads over, ascending
 };
 
 }  // namespace tvg

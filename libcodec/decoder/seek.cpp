@@ -28,45 +28,56 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
   const bool beyond =
       !map_.from_index() && frame >= known_end && frames_.position() >= known_end && !reader.over();
   target_ = frame;
+  needed_.clear();
   if (inside || beyond || gop_place == nullptr) return reader.input_offset();
-  const StreamMap::Place* const mesh_place = map_.mesh_of(*gop_place);
-  const bool in_force =
-      reader.has_mesh() && (mesh_place == nullptr || mesh_place->entry.offset == reader.mesh_offset());
-  jump(in_force || mesh_place == nullptr ? *gop_place : *mesh_place);
+  needed_ = map_.meshes_for(*gop_place, reader.head().limits.meshes);
+  jump(*next_stop());
+  meshes_.keep_only(needed_);
+  deferred_ = {};
   return reader.offset();
 }
 
 /// Goes on at this mesh or GOP.
 void Decoder::State::jump(const StreamMap::Place& place) {
-  reader.jump(place.entry.offset);
+  reader.jump(place.entry.offset, needed_);
   frames_.jump(place.first_frame);
-  deferred_.reset();
   gop_end_ = 0;
+}
+
+/// Where to go on on the way to the GOP sought: at the first mesh that it needs and that is not in force, or
+/// at the GOP; null where that is not known.
+const StreamMap::Place* Decoder::State::next_stop() const {
+  for (const std::uint64_t offset : needed_) {
+    const StreamMap::Place* const mesh_place = map_.at(offset);
+    if (mesh_place != nullptr && !reader.meshes().holds(offset)) return mesh_place;
+  }
+  return map_.gop_for(*target_);
 }
 
 std::uint64_t Decoder::State::skip() {
   if (!target_) return 0;
   if (const std::uint64_t count = reader.skip(); count > 0) return count;
-  if (!reader.at_chunk() || !map_.from_index() || !reader.has_mesh()) return 0;
-  const StreamMap::Place* const gop_place = map_.gop_for(*target_);
-  const StreamMap::Place* const mesh_place = gop_place != nullptr ? map_.mesh_of(*gop_place) : nullptr;
+  if (!reader.at_chunk() || !map_.from_index()) return 0;
+  const StreamMap::Place* const stop = next_stop();
   const std::uint64_t input_offset = reader.input_offset();
-  if (mesh_place == nullptr || mesh_place->entry.offset != reader.mesh_offset() ||
-      gop_place->entry.offset <= input_offset) {
-    return 0;
-  }
-  jump(*gop_place);
+  if (stop == nullptr || stop->entry.offset <= input_offset) return 0;
+  jump(*stop);
   return reader.offset() - input_offset;
 }
 
-/// The GOP whose header was just read ends before the frame sought.
+/// Whether the GOP whose header was just read ends before the frame sought, where so many frames before it
+/// are missing.
+bool Decoder::State::is_on_the_way(std::uint64_t missing) const {
+  return target_ && frames_.position() + missing + reader.gop().frame_count <= *target_;
+}
+
+/// Passes over such a GOP.
 std::optional<Decoder::Event> Decoder::State::pass_gop(std::uint64_t missing) {
   const std::uint32_t frame_count = reader.gop().frame_count;
   reader.pass_over();
   std::optional<Event> event = check_place();
   if (frames_.has_unknown()) event = tell(frames_.lose(missing, frames_.take_cause({})));
-  const IndexEntry entry{IndexEntry::Kind::kGop, reader.chunk_offset(), frame_count};
-  if (!map_.note(entry, frames_.position())) reader.fail(out_of_memory());
+  note_gop();
   frames_.advance(frame_count);
   return event;
 }
@@ -80,8 +91,7 @@ const StreamMap::Place* Decoder::State::indexed_place() const {
 std::optional<Decoder::Event> Decoder::State::check_place() {
   if (!map_.from_index()) return std::nullopt;
   const StreamMap::Place* const place = indexed_place();
-  if (place != nullptr && place->entry.kind == IndexEntry::Kind::kGop &&
-      place->entry.frame_count == reader.gop().frame_count) {
+  if (place != nullptr && place->entry.is_gop() && place->entry.frame_count == reader.gop().frame_count) {
     return std::nullopt;
   }
   map_ = StreamMap();

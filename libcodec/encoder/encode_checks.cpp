@@ -2,6 +2,7 @@
 
 #include "base/errors.hpp"
 #include "container/chunk.hpp"
+#include "container/mesh_payload.hpp"
 #include "container/metadata.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ Status check_metadata(const Metadata& metadata) {
     if (!is_metadata_text(value))
       return invalid_argument("the metadata's value of '" + key + "' is no text in UTF-8");
   }
-  if (write_metadata(metadata).size() > kMaxSmallPayload)
+  if (write_metadata(metadata).size() > kMaxMetadataPayload)
     return invalid_argument("the metadata is above 1 MiB");
   return {};
 }
@@ -46,6 +47,8 @@ Status check_options(const EncodeOptions& options) {
   if (options.max_vertices > kMaxVertexCount || options.max_faces > kMaxFaceCount) {
     return invalid_argument("the bounds are above what a stream can hold");
   }
+  if (options.max_meshes == 0 || options.max_meshes > kMaxMeshesInForce)
+    return invalid_argument("a decoder can be asked to keep 1 to 65536 meshes");
   if (options.box && options.box->empty()) return invalid_argument("the box has no point");
   return check_metadata(options.metadata);
 }
@@ -58,6 +61,8 @@ StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   // 64 bits per coordinate: more than the worst residual can take.
   limits.packet_bytes = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(256 + 24 * std::uint64_t{limits.vertices}, kMaxChunkLength));
+  limits.meshes = options.max_meshes;
+  limits.mesh_bytes = most_mesh_bytes(limits);
   limits.decoder_memory = decoder_memory_needed(limits);
   return limits;
 }

@@ -1,6 +1,10 @@
 #pragma once
+#include "base/checksum.hpp"
 #include "planes/plane_coder.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -12,15 +16,22 @@ namespace tvg {
 /// Positions: the planes x, y and z of one frame after the other.
 using PositionCoder = PlaneCoder<3>;
 
-/// The predictor of a GOP's `frame`: nothing comes before the first one.
+/// The predictor of a GOP's `frame` that an encoder uses: nothing comes before the first one.
 constexpr Predictor predictor_of(std::uint32_t frame, Predictor asked) {
   return frame == 0 ? Predictor::kSpace : asked;
 }
 
-/// The integers of a frame that the GOP's digest covers (§7.6).
-inline std::span<const std::int32_t> digested(std::span<const Quad> indices) {
-  return indices.empty() ? std::span<const std::int32_t>()
-                         : std::span(indices.front().data(), 4 * indices.size());
+/// Adds a frame to the digest of positions (§7.6): x, y and z of each vertex.
+inline void add_to_digest(Hasher& digest, std::span<const Quad> indices) {
+  constexpr std::size_t kAtOnce = 256;
+  std::array<std::int32_t, 3 * kAtOnce> values;
+  while (!indices.empty()) {
+    const std::size_t count = std::min(kAtOnce, indices.size());
+    for (std::size_t v = 0; v < count; ++v)
+      std::copy_n(indices[v].begin(), 3, values.begin() + 3 * static_cast<std::ptrdiff_t>(v));
+    digest.update(std::span<const std::int32_t>(values).first(3 * count));
+    indices = indices.subspan(count);
+  }
 }
 
 }  // namespace tvg

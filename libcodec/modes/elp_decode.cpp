@@ -12,42 +12,52 @@
 namespace tvg {
 
 // format-spec §7.4
-Status ElpDecoder::begin(const GopHeader& header, const CodedMesh& mesh) {
-  const std::size_t vertex_count = mesh.gates.size();
+Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh) {
+  const Result<ElpHeader> elp = read_elp_header(header);
+  if (!elp) return elp.error();
+  const std::size_t vertex_count = mesh->gates.size();
   if (!can_allocate(vertex_count * (PositionCoder::kBytesPerVertex + 1) + PositionCoder::kMostModelBytes))
     return out_of_memory();
-  mesh_ = &mesh;
-  lattice_ = {.origin = header.origin,
-              .step = header.step,
-              .fine_bits = header.fine_bits,
-              .coarse_bits = header.coarse_bits};
-  info_ = {.first_frame = header.first_frame,
-           .source_frame = header.first_frame,
-           .frame_count = header.frame_count,
-           .predictor = static_cast<Predictor>(header.predictor),
-           .fine_bits = header.fine_bits,
-           .coarse_bits = header.coarse_bits,
-           .origin = header.origin,
-           .step = header.step,
-           .flagged = static_cast<std::uint32_t>(vertex_count),
-           .flag_bytes = header.flags.size()};
+  mesh_ = std::move(mesh);
+  channels_ = elp->channels;
+  lattice_ = elp->lattice;
+  info_ = gop_info(header, *elp);
+  info_.flagged = static_cast<std::uint32_t>(vertex_count);
   flags_.clear();
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
-    RangeDecoder coder(header.flags);
-    code_flags(coder, mesh.gates, flags_);
-    if (!coder.finished()) return malformed("§7.4", "the importance flags do not fill their bytes exactly");
+    RangeDecoder coder(elp->flags);
+    code_flags(coder, mesh_->gates, flags_);
+    if (!coder.finished()) return malformed("§6.1", "the importance flags do not fill their bytes exactly");
     info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));
   }
-  positions_.emplace(Schedule(mesh.gates), flags_, lattice_);
+  positions_.emplace(Schedule(mesh_->gates), flags_, lattice_);
   frames_taken_ = 0;
   digest_ = Hasher();
   return {};
 }
 
-Status ElpDecoder::take(Bytes packet) {
-  RangeDecoder coder(packet);
-  return decode(coder);
+// format-spec §4.5.2
+Result<Bytes> ElpDecoder::open(Bytes packet, Predictor predictor) const {
+  if (frames_taken_ == 0 && predictor != Predictor::kSpace)
+    return malformed("§4.5.2", "the first frame of a GOP is predicted from one before it");
+  return positions_piece(channels_, packet);
+}
+
+Status ElpDecoder::take(Bytes packet, Predictor predictor) {
+  const Result<Bytes> positions = open(packet, predictor);
+  if (!positions) return positions.error();
+  RangeDecoder coder(*positions);
+  return decode(coder, predictor);
+}
+
+// format-spec §7.6
+Status ElpDecoder::check_digest(Bytes packet) const {
+  const Result<std::uint64_t> expected = read_digest(channels_, packet);
+  if (!expected) return expected.error();
+  if (*expected == digest_.value()) return {};
+  return stream_error(ErrorCode::kDigestMismatch, "§7.6",
+                      {"the GOP decoded to other values than were encoded"});
 }
 
 void ElpDecoder::copy_positions(void* positions, std::size_t stride) const {

@@ -1,12 +1,13 @@
 #pragma once
 #include "base/checksum.hpp"
 #include "connectivity/mesh_coder.hpp"
-#include "container/gop_header.hpp"
 #include "modes/elp.hpp"
+#include "modes/elp_header.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,16 +19,16 @@ namespace tvg {
 /// Decodes a GOP in mode elp, packet by packet (format-spec §7). Allocates in begin() and not after.
 class ElpDecoder {
  public:
-  /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
-  Status begin(const GopHeader& header, const CodedMesh& mesh);
+  /// Begins the GOP with this header. kOutOfMemory where there is no room; kUnsupported, kMalformed.
+  Status begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh);
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.
-  Status take(Bytes packet);
+  Status take(Bytes packet, Predictor predictor);
   /// The same, and `bits` becomes what the residuals of x, y and z take of the packet.
-  Status take_measured(Bytes packet, std::array<double, 3>& bits);
+  Status take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits);
 
-  /// Of all frames taken.
-  std::uint64_t digest() const { return digest_.value(); }
+  /// Compares the digest of all frames taken with the one the encoder stored.
+  Status check_digest(Bytes packet) const;
 
   const GopInfo& info() const { return info_; }
   /// The frame taken last: vertex v's x, y, z as float32 at `positions` + v * `stride`.
@@ -38,12 +39,15 @@ class ElpDecoder {
   void copy_flags(std::span<std::uint8_t> flags) const;
 
  private:
+  /// The bytes of a frame's positions.
+  Result<Bytes> open(Bytes packet, Predictor predictor) const;
   template <class Coder>
-  Status decode(Coder& coder);
+  Status decode(Coder& coder, Predictor predictor);
   bool flagged(std::size_t v) const { return flags_.empty() || flags_[v] != 0; }
 
-  const CodedMesh* mesh_ = nullptr;
+  std::shared_ptr<const CodedMesh> mesh_;
   GopInfo info_;
+  Channels channels_;
   Lattice lattice_;
   std::vector<std::uint8_t> flags_;  ///< [traversal index]; empty when the lattice is not hybrid
   std::optional<PositionCoder> positions_;

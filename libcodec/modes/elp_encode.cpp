@@ -1,6 +1,6 @@
 #include "modes/elp_encode.hpp"
 
-#include "container/gop_header.hpp"
+#include "modes/elp_header.hpp"
 #include "quantization/flag_coder.hpp"
 
 #include <utility>
@@ -34,22 +34,16 @@ std::vector<std::uint8_t> ElpEncoder::begin() {
     code_flags(coder_, mesh_.gates, flags_);
     coded_flags = coder_.finish();
   }
-  return write_gop_header({.first_frame = input_.first_frame,
-                           .frame_count = static_cast<std::uint32_t>(input_.frames.size()),
-                           .predictor = static_cast<std::uint8_t>(input_.predictor),
-                           .fine_bits = static_cast<std::uint8_t>(lattice.fine_bits),
-                           .coarse_bits = static_cast<std::uint8_t>(lattice.coarse_bits),
-                           .origin = lattice.origin,
-                           .step = lattice.step,
-                           .flags = coded_flags});
+  return write_elp_header(lattice, coded_flags);
 }
 
 // format-spec §7.5
 std::vector<std::uint8_t> ElpEncoder::take(const FramePositions& frame) {
   positions_.next();
   quantize_frame(frame);
-  positions_.code(coder_, predictor_of(frames_taken_++, input_.predictor));
-  digest_.update(digested(std::as_const(positions_).indices()));
+  positions_.code(coder_, predictor());
+  ++frames_taken_;
+  add_to_digest(digest_, std::as_const(positions_).indices());
   return coder_.finish();
 }
 

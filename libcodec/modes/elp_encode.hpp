@@ -16,8 +16,10 @@ class ElpEncoder {
   /// `input` and `mesh` must outlive the encoder.
   ElpEncoder(const GopInput& input, const CodedMesh& mesh);
 
-  /// The header packet.
+  /// The mode's fields of the header.
   std::vector<std::uint8_t> begin();
+  /// How the next frame is predicted.
+  Predictor predictor() const { return predictor_of(frames_taken_, input_.predictor); }
   /// The packet of the next frame, [vertex][xyz] in the order of the input mesh.
   std::vector<std::uint8_t> take(const FramePositions& frame);
   /// Of all frames taken.

@@ -4,9 +4,11 @@
 // Apart from the rest of the mode: only programs that ask for bits are linked with the coder once more.
 namespace tvg {
 
-Status ElpDecoder::take_measured(Bytes packet, std::array<double, 3>& bits) {
-  MeteredDecoder<3> coder(packet);
-  Status status = decode(coder);
+Status ElpDecoder::take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits) {
+  const Result<Bytes> positions = open(packet, predictor);
+  if (!positions) return positions.error();
+  MeteredDecoder<3> coder(*positions);
+  Status status = decode(coder, predictor);
   bits = coder.bits();
   return status;
 }

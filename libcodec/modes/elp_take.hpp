@@ -9,12 +9,13 @@ namespace tvg {
 
 // format-spec §7.5
 template <class Coder>
-Status ElpDecoder::decode(Coder& coder) {
+Status ElpDecoder::decode(Coder& coder, Predictor predictor) {
   positions_->next();
-  const bool inside = positions_->code(coder, predictor_of(frames_taken_++, info_.predictor));
+  ++frames_taken_;
+  const bool inside = positions_->code(coder, predictor);
+  if (!inside && !coder.overrun()) return malformed("§7.5", "a decoded index lies outside its lattice");
   if (!coder.finished()) return malformed("§6.1", "the frame's residuals do not fill its packet exactly");
-  if (!inside) return malformed("§7.5", "a decoded index lies outside its lattice");
-  digest_.update(digested(std::as_const(*positions_).indices()));
+  add_to_digest(digest_, std::as_const(*positions_).indices());
   return {};
 }
 

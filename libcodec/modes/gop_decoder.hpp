@@ -4,7 +4,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include <tvg/decoder.hpp>
@@ -15,18 +17,21 @@ namespace tvg {
 /// after.
 class GopDecoder {
  public:
-  /// Begins the GOP with this header. `mesh` must outlive it. kOutOfMemory where there is no room.
-  Status begin(const GopHeader& header, const CodedMesh& mesh) { return mode().begin(header, mesh); }
+  /// Begins the GOP with this header, which is in a known mode. kOutOfMemory where there is no room;
+  /// kUnsupported, kMalformed.
+  Status begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh) {
+    return mode().begin(header, std::move(mesh));
+  }
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.
-  Status take(Bytes packet) { return mode().take(packet); }
+  Status take(Bytes packet, Predictor predictor) { return mode().take(packet, predictor); }
   /// The same, and `bits` becomes what the packet's residuals of x, y and z take. Who calls it is linked with
   /// the coder of planes once more.
-  Status take_measured(Bytes packet, std::array<double, 3>& bits) {
-    return mode().take_measured(packet, bits);
+  Status take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits) {
+    return mode().take_measured(packet, predictor, bits);
   }
   /// Compares the digest of all frames decoded with the one the encoder stored.
-  Status check_digest(Bytes packet) const;
+  Status check_digest(Bytes packet) const { return mode().check_digest(packet); }
 
   const GopInfo& info() const { return mode().info(); }
   void copy_positions(void* positions, std::size_t stride) const { mode().copy_positions(positions, stride); }

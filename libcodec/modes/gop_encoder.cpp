@@ -1,9 +1,10 @@
 #include "modes/gop_encoder.hpp"
 
-#include "base/checksum.hpp"
 #include "container/chunk.hpp"
+#include "container/gop_header.hpp"
 #include "container/packet.hpp"
 #include "modes/elp_encode.hpp"
+#include "modes/elp_header.hpp"
 
 #include <algorithm>
 
@@ -11,21 +12,28 @@ namespace tvg {
 
 Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedMesh& mesh,
                                              const StreamLimits& limits) {
+  const auto frame_count = static_cast<std::uint32_t>(input.frames.size());
   ElpEncoder mode(input, mesh);
+  const std::vector<std::uint8_t> fields = mode.begin();
+  const std::vector<std::uint8_t> header = write_gop_header({.mesh = mesh.id,
+                                                             .first_frame = input.first_frame,
+                                                             .frame_count = frame_count,
+                                                             .packet_count = frame_count + 1,
+                                                             .planes = {},
+                                                             .mode = kModeElp,
+                                                             .fields = fields});
   ByteWriter gop;
-  const std::vector<std::uint8_t> header = mode.begin();
-  write_packet(gop, 0, header);
-  const std::uint32_t header_checksum = checksum(header);
+  const std::uint32_t header_checksum = write_packet(gop, 0, packet_kind::kHeader, header);
   std::size_t largest_packet = header.size();
-  std::uint32_t packet_index = 0;
+  std::uint32_t packet_number = 0;
   for (const FramePositions& frame : input.frames) {
+    const std::uint8_t kind = packet_kind::frame(mode.predictor());
     const std::vector<std::uint8_t> packet = mode.take(frame);
     largest_packet = std::max(largest_packet, packet.size());
-    write_packet(gop, packet_seed(header_checksum, mesh.payload_checksum, ++packet_index), packet);
+    write_packet(gop, packet_seed(header_checksum, ++packet_number), kind, packet);
   }
-  ByteWriter digest;
-  digest.u64(mode.digest());
-  write_packet(gop, packet_seed(header_checksum, mesh.payload_checksum, ++packet_index), digest.data());
+  write_packet(gop, packet_seed(header_checksum, ++packet_number), packet_kind::kDigest,
+               write_digest(mode.digest()));
 
   if (largest_packet > limits.packet_bytes || gop.data().size() > kMaxChunkLength) {
     return Error{ErrorCode::kLimitExceeded,

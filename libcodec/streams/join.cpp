@@ -1,3 +1,6 @@
+#include "container/chunk.hpp"
+#include "container/head.hpp"
+#include "container/metadata.hpp"
 #include "container/stream_writer.hpp"
 #include "streams/join_input.hpp"
 
@@ -59,7 +62,7 @@ class Joiner {
     StreamLimits limits;
     for (const JoinInputReader& reader : readers_) limits = larger_limits(limits, reader.limits());
     const Metadata metadata = merge_metadata();
-    if (write_metadata(metadata).size() > kMaxSmallPayload) {
+    if (write_metadata(metadata).size() > kMaxMetadataPayload) {
       return Error{ErrorCode::kLimitExceeded,
                    "the metadata of all inputs together are too long for a stream",
                    {},
@@ -102,7 +105,7 @@ class Joiner {
       if (progress_) progress_(report_.frames, std::nullopt);
     }
     if (reader.chunks_passed_over() > 0) {
-      report_.notes.push_back(reader.name() + ": chunks of unknown or out-of-place kinds are left out: " +
+      report_.notes.push_back(reader.name() + ": chunks of data or of unknown kinds are left out: " +
                               std::to_string(reader.chunks_passed_over()));
     }
     return {};
@@ -127,12 +130,8 @@ class Joiner {
   }
 
   Status write_gop_start(const JoinInputReader& reader) {
-    if (!std::equal(reader.mesh().begin(), reader.mesh().end(), mesh_.begin(), mesh_.end())) {
-      mesh_.assign(reader.mesh().begin(), reader.mesh().end());
-      if (Status status = writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, mesh_)); !status.ok())
-        return status;
-      ++report_.meshes;
-    }
+    if (Status status = writer_.write_mesh_chunk(reader.mesh()); !status.ok()) return status;
+    report_.meshes = writer_.meshes();
     return writer_.write_gop_chunk(reader.gop_start(), reader.gop_frames());
   }
 
@@ -141,8 +140,7 @@ class Joiner {
   ByteSink writer_sink_;  ///< appends to what the writer has written
   const EncodeProgress& progress_;
   std::deque<JoinInputReader> readers_;
-  std::vector<std::uint8_t> mesh_;  ///< payload of the mesh written last
-  std::uint64_t position_ = 0;      ///< of the next frame over all inputs
+  std::uint64_t position_ = 0;  ///< of the next frame over all inputs
   JoinReport report_;
 };
 

@@ -34,11 +34,8 @@ Result<ChunkReader::Event> JoinInputReader::next() {
         return located(std::move(reader_.problem().error));
       case Event::kFailed:
         return located(reader_.error());
-      case Event::kOrphan: {
-        Error error = malformed("§3.4", "a GOP comes before any mesh");
-        error.byte_offset = reader_.chunk_offset();
-        return located(std::move(error));
-      }
+      case Event::kGopLost:
+        return located(std::move(reader_.problem().error));
       case Event::kIndex:
         if (!reader_.index_matches()) {
           Error error = malformed("§4.6", "the index does not match the stream");
@@ -53,33 +50,41 @@ Result<ChunkReader::Event> JoinInputReader::next() {
 }
 
 /// Keeps of a structure what is passed on later.
-void JoinInputReader::use(ChunkReader::Event event) {
+Status JoinInputReader::use(ChunkReader::Event event) {
   const Bytes raw = reader_.raw();
   switch (event) {
-    case ChunkReader::Event::kChunk:
-      if (kind_of(reader_.chunk()) == ChunkKind::kAncillary) ++chunks_passed_over_;
+    case ChunkReader::Event::kChunk: {
+      const ChunkKind kind = kind_of(reader_.chunk());
+      if (kind == ChunkKind::kAncillary || kind == ChunkKind::kData) ++chunks_passed_over_;
       gop_start_.assign(raw.begin(), raw.end());
       break;
+    }
     case ChunkReader::Event::kMetadata:
       metadata_ = reader_.take_metadata();
       break;
-    case ChunkReader::Event::kMesh:
-      mesh_.assign(reader_.content().begin(), reader_.content().end());
+    case ChunkReader::Event::kMesh: {
+      std::vector<std::uint8_t> chunk(gop_start_);
+      chunk.insert(chunk.end(), raw.begin(), raw.end());
+      if (!meshes_.put(reader_.mesh_id(), reader_.chunk_offset(), std::move(chunk), limits().meshes))
+        return out_of_memory();
       break;
+    }
     case ChunkReader::Event::kGop:
       gop_start_.insert(gop_start_.end(), raw.begin(), raw.end());
       gop_frames_ = reader_.gop().frame_count;
+      gop_mesh_ = reader_.gop().mesh;
       break;
     default:
       break;
   }
+  return {};
 }
 
 Status JoinInputReader::begin() {
   for (;;) {
     const Result<ChunkReader::Event> event = next();
     if (!event) return event.error();
-    use(*event);
+    if (Status status = use(*event); !status.ok()) return status;
     if (*event != ChunkReader::Event::kChunk) continue;
     const ChunkKind kind = kind_of(reader_.chunk());
     if (kind != ChunkKind::kHead && kind != ChunkKind::kMetadata) return {};
@@ -91,7 +96,7 @@ Result<bool> JoinInputReader::next_gop() {
     const Result<ChunkReader::Event> event = next();
     if (!event) return event.error();
     if (*event == ChunkReader::Event::kEnd) return false;
-    use(*event);
+    if (Status status = use(*event); !status.ok()) return status.error();
     if (*event == ChunkReader::Event::kGop) return true;
   }
 }

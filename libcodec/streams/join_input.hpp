@@ -27,8 +27,8 @@ class JoinInputReader {
   const std::string& name() const { return input_.name; }
   const StreamLimits& limits() const { return reader_.head().limits; }
   const Metadata& metadata() const { return metadata_; }
-  /// Payload of the mesh chunk in force.
-  Bytes mesh() const { return mesh_; }
+  /// The chunk of the mesh that the GOP names.
+  Bytes mesh() const { return meshes_.find(gop_mesh_)->value; }
   /// Of the GOP: its chunk from the first byte to the end of its header packet, and its frames.
   Bytes gop_start() const { return gop_start_; }
   std::uint32_t gop_frames() const { return gop_frames_; }
@@ -38,15 +38,16 @@ class JoinInputReader {
  private:
   /// The next event that is neither a want of bytes nor anything wrong; what is wrong is an error.
   Result<ChunkReader::Event> next();
-  void use(ChunkReader::Event event);
+  Status use(ChunkReader::Event event);
   Error located(Error error) const;
 
   JoinInput input_;
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   Metadata metadata_;
-  std::vector<std::uint8_t> mesh_;
-  std::vector<std::uint8_t> gop_start_;
+  ChunkWindow<std::vector<std::uint8_t>> meshes_;  ///< whole chunks of those in force
+  std::uint32_t gop_mesh_ = 0;
+  std::vector<std::uint8_t> gop_start_;  ///< or what was read last of another chunk
   std::uint32_t gop_frames_ = 0;
   std::uint64_t chunks_passed_over_ = 0;
 };

@@ -24,7 +24,7 @@ class StreamSplitter::State {
     while (!error_) {
       const Event event = reader_.next();
       if (event == Event::kNeedBytes) {
-        if (ended_ || reader_.state() != StreamState::kEnd) return std::optional<StreamPart>();
+        if (ended_ || reader_.state() != StreamState::kEnded) return std::optional<StreamPart>();
         ended_ = true;
         part_.kind = StreamPart::Kind::kEnd;
         return std::optional(std::exchange(part_, StreamPart()));
@@ -66,16 +66,19 @@ class StreamSplitter::State {
         return true;
       case Event::kMesh:
         part_.kind = StreamPart::Kind::kMesh;
+        part_.mesh = reader_.mesh_id();
         append();
         return true;
       case Event::kGop:
         part_.kind = StreamPart::Kind::kGop;
+        part_.mesh = reader_.gop().mesh;
         part_.frame_count = reader_.gop().frame_count;
         part_.first_frame = reader_.gop().first_frame;
         append();
         return false;
       case Event::kFrame:
       case Event::kDigest:
+      case Event::kPacket:
         append();
         return false;
       case Event::kGopEnd:
@@ -84,8 +87,7 @@ class StreamSplitter::State {
       case Event::kIndex:
         if (reader_.index_matches()) return false;
         return located(malformed("§4.6", "the index does not match the stream"));
-      case Event::kOrphan:
-        return located(malformed("§3.4", "a GOP comes before any mesh"));
+      case Event::kGopLost:
       case Event::kProblem:
         return std::move(reader_.problem().error);
       case Event::kFailed:
@@ -160,7 +162,6 @@ class StreamAssembler::State {
   explicit State(ByteSink sink) : writer(std::move(sink)) {}
 
   StreamWriter writer;
-  bool has_mesh = false;
   std::uint64_t gops = 0;
 };
 
@@ -174,14 +175,10 @@ Status StreamAssembler::begin(const StreamLimits& limits, const Metadata& metada
 }
 
 Status StreamAssembler::write_mesh(std::span<const std::uint8_t> chunk) {
-  state_->has_mesh = true;
   return state_->writer.write_mesh_chunk(chunk);
 }
 
 Status StreamAssembler::write_gop(std::span<const std::uint8_t> chunk, std::uint32_t frame_count) {
-  if (!state_->has_mesh) {
-    return Error{ErrorCode::kInvalidArgument, "a GOP comes before any mesh", {}, {}, "§3.4"};
-  }
   ++state_->gops;
   return state_->writer.write_gop_chunk(chunk, frame_count);
 }

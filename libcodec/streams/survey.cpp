@@ -1,6 +1,8 @@
 #include "base/stream_error.hpp"
 #include "container/chunk_reader.hpp"
+#include "modes/elp_header.hpp"
 
+#include <algorithm>
 #include <new>
 #include <string>
 #include <utility>
@@ -63,18 +65,19 @@ class Surveyor {
         result_.meshes.push_back({mesh.vertex_count,
                                   mesh.face_count,
                                   {mesh.connectivity.size(), mesh.order.size(), mesh.keeps_order}});
-        met_.push_back({IndexEntry::Kind::kMesh, reader_.chunk_offset(), 0});
+        mesh_ids_.push_back(reader_.mesh_id());
         break;
       }
       case ChunkReader::Event::kGop:
         take_gop();
         reader_.pass_over();
         break;
-      case ChunkReader::Event::kOrphan:
-        find(malformed("§3.4", "a GOP comes before any mesh"));
+      case ChunkReader::Event::kGopLost:
+        frames_ += reader_.gop().frame_count;
+        find(std::move(reader_.problem().error));
         break;
       case ChunkReader::Event::kIndex:
-        if (reader_.index() != met_) find(malformed("§4.6", "the index does not match the stream"));
+        if (!reader_.index_matches()) find(malformed("§4.6", "the index does not match the stream"));
         break;
       case ChunkReader::Event::kProblem:
         find(std::move(reader_.problem().error));
@@ -86,22 +89,19 @@ class Surveyor {
 
   void take_gop() {
     const GopHeader& header = reader_.gop();
-    GopInfo gop;
-    gop.first_frame = frames_;
-    gop.source_frame = header.first_frame;
-    gop.frame_count = header.frame_count;
-    gop.predictor = static_cast<Predictor>(header.predictor);
-    gop.fine_bits = header.fine_bits;
-    gop.coarse_bits = header.coarse_bits;
-    gop.origin = header.origin;
-    gop.step = header.step;
-    gop.bytes = reader_.chunk().total_size();
-    gop.header_bytes = reader_.content().size() - header.flags.size();
-    gop.flag_bytes = header.flags.size();
-    result_.gops.push_back(gop);
-    result_.gop_meshes.push_back(static_cast<std::uint32_t>(result_.meshes.size() - 1));
+    const Result<ElpHeader> elp = read_elp_header(header);
     frames_ += header.frame_count;
-    met_.push_back({IndexEntry::Kind::kGop, reader_.chunk_offset(), header.frame_count});
+    if (!elp) {
+      find(elp.error());
+      return;
+    }
+    GopInfo gop = gop_info(header, *elp);
+    gop.first_frame = frames_ - header.frame_count;
+    gop.bytes = reader_.chunk().total_size();
+    gop.header_bytes = reader_.content().size() - gop.flag_bytes;
+    result_.gops.push_back(gop);
+    const auto mesh = std::find(mesh_ids_.rbegin(), mesh_ids_.rend(), header.mesh);
+    result_.gop_meshes.push_back(static_cast<std::uint32_t>(mesh_ids_.rend() - mesh - 1));
   }
 
   void find(Error error) {
@@ -113,7 +113,7 @@ class Surveyor {
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   StreamSurvey result_;
-  std::vector<IndexEntry> met_;  ///< what the index should say
+  std::vector<std::uint32_t> mesh_ids_;  ///< of the meshes of the result
   std::uint64_t frames_ = 0;
 };
 

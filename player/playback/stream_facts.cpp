@@ -20,7 +20,7 @@ void StreamFacts::use_index(const std::vector<IndexEntry>& entries, std::uint64_
   const std::span<const StreamMap::Place> places = map.places();
   for (std::size_t i = 0; i < places.size(); ++i) {
     const IndexEntry& entry = places[i].entry;
-    if (entry.kind != IndexEntry::Kind::kGop) continue;
+    if (!entry.is_gop()) continue;
     const std::uint64_t next = i + 1 < places.size() ? places[i + 1].entry.offset : end;
     marks_.push_back({places[i].first_frame, entry.frame_count, entry.offset,
                       next > entry.offset ? next - entry.offset : 0});

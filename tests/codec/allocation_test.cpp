@@ -114,7 +114,7 @@ TEST(Allocation, FrameLoopMakesNoneForNoiseOn24Bits) {
 }
 
 TEST(Allocation, AStreamAboveTheLimitsIsRefusedBeforeMemoryIsTaken) {
-  StreamLimits limits{0x7FFFFFFF, 0x7FFFFFFF, 65536, 0x7FFFFFFF, 0};
+  StreamLimits limits{0x7FFFFFFF, 0x7FFFFFFF, 65536, 0x7FFFFFFF, 65536, 0x7FFFFFFF, 0};
   limits.decoder_memory = decoder_memory_needed(limits);
   Stream stream(kSignature.begin(), kSignature.end());
   const Stream head = write_chunk(kHeadChunk, false, write_head(limits));
@@ -126,7 +126,7 @@ TEST(Allocation, AStreamAboveTheLimitsIsRefusedBeforeMemoryIsTaken) {
 }
 
 TEST(Allocation, DeclaredLimitsAloneTakeNoMemory) {
-  StreamLimits limits{1u << 24, 1u << 24, 65536, 1u << 28, 0};
+  StreamLimits limits{1u << 24, 1u << 24, 65536, 1u << 28, 65536, 1u << 28, 0};
   limits.decoder_memory = decoder_memory_needed(limits);
   Stream stream(kSignature.begin(), kSignature.end());
   const Stream head = write_chunk(kHeadChunk, false, write_head(limits));

@@ -109,12 +109,14 @@ TEST(Refusals, ErrorOfTheSinkEndsTheEncoding) {
 TEST(Refusals, DecoderRefusesAStreamAboveEachOfItsLimits) {
   const Stream stream = encode_sequence(triangle(), {});
   const StreamLimits declared = decode_stream(stream).head.limits;
-  const DecoderLimits exact{declared.vertices, declared.faces, declared.frames_per_gop, declared.packet_bytes,
+  const DecoderLimits exact{declared.vertices,      declared.faces,  declared.frames_per_gop,
+                            declared.packet_bytes,  declared.meshes, declared.mesh_bytes,
                             declared.decoder_memory};
   EXPECT_TRUE(decode_stream(stream, exact).complete);
   const std::vector<std::function<void(DecoderLimits&)>> cuts = {
-      [](DecoderLimits& l) { --l.vertices; }, [](DecoderLimits& l) { --l.faces; },
+      [](DecoderLimits& l) { --l.vertices; },       [](DecoderLimits& l) { --l.faces; },
       [](DecoderLimits& l) { --l.frames_per_gop; }, [](DecoderLimits& l) { --l.packet_bytes; },
+      [](DecoderLimits& l) { --l.meshes; },         [](DecoderLimits& l) { --l.mesh_bytes; },
       [](DecoderLimits& l) { --l.memory; }};
   for (std::size_t i = 0; i < cuts.size(); ++i) {
     DecoderLimits limits = exact;

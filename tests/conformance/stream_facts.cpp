@@ -28,19 +28,22 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream) {
   decoder.finish();
   StreamFacts facts;
   facts.bytes = stream.size();
+  Mesh shown;
   Hasher lattice, positions, faces;
   std::vector<std::int32_t> indices;
   std::vector<float> coordinates;
   for (;;) {
     switch (decoder.poll()) {
-      case Decoder::Event::kMesh:
-        facts.vertices += decoder.mesh().vertex_count;
-        facts.faces += decoder.mesh().faces.size();
-        for (const Face& face : decoder.mesh().faces) add(faces, face);
-        indices.resize(3 * std::size_t{decoder.mesh().vertex_count});
-        coordinates.resize(indices.size());
-        break;
       case Decoder::Event::kFrame:
+        // A mesh counts when a frame has another than the one before it.
+        if (facts.frames == 0 || decoder.mesh() != shown) {
+          shown = decoder.mesh();
+          facts.vertices += shown.vertex_count;
+          facts.faces += shown.faces.size();
+          for (const Face& face : shown.faces) add(faces, face);
+          indices.resize(3 * std::size_t{shown.vertex_count});
+          coordinates.resize(indices.size());
+        }
         ++facts.frames;
         decoder.copy_lattice(indices);
         decoder.copy_positions(coordinates.data());

@@ -82,7 +82,7 @@ Sequence triangle(std::uint32_t frames) {
   return sequence;
 }
 
-/// The larger of two streams' limits, in each.
+/// Limits that hold for all of these streams.
 StreamLimits joint_limits(const std::vector<Stream>& streams) {
   StreamLimits limits;
   for (const Stream& stream : streams) {
@@ -91,12 +91,8 @@ StreamLimits joint_limits(const std::vector<Stream>& streams) {
     if (!header || header->type != kHeadChunk) stop("a stream does not begin with its head");
     const auto head = read_head(bytes.subspan(kChunkHeaderSize, header->length));
     if (!head) stop(head.error().describe());
-    limits.vertices = std::max(limits.vertices, head->limits.vertices);
-    limits.faces = std::max(limits.faces, head->limits.faces);
-    limits.frames_per_gop = std::max(limits.frames_per_gop, head->limits.frames_per_gop);
-    limits.packet_bytes = std::max(limits.packet_bytes, head->limits.packet_bytes);
+    limits = larger_limits(limits, head->limits);
   }
-  limits.decoder_memory = decoder_memory_needed(limits);
   return limits;
 }
 
@@ -108,7 +104,7 @@ Status copy_meshes_and_gops(Bytes stream, StreamWriter& writer) {
     const Bytes chunk = rest.first(static_cast<std::size_t>(header->total_size()));
     if (header->type == kMeshChunk) status = writer.write_mesh_chunk(chunk);
     if (header->type == kGopChunk) {
-      ByteReader packet(chunk.subspan(kChunkHeaderSize));
+      ByteReader packet(chunk.subspan(kChunkHeaderSize + 1));
       const auto gop = read_gop_header(packet.bytes(packet.varint()));
       if (!gop) stop(gop.error().describe());
       status = writer.write_gop_chunk(chunk, gop->frame_count);
@@ -126,8 +122,7 @@ Stream join(const std::vector<Stream>& streams, Bytes between = {}) {
     joined.insert(joined.end(), bytes.begin(), bytes.end());
     return Status();
   });
-  Status status = writer.write(kSignature);
-  if (status.ok()) status = writer.write(write_chunk(kHeadChunk, false, write_head(joint_limits(streams))));
+  Status status = writer.write_start(joint_limits(streams), {});
   for (const Stream& stream : streams) {
     if (status.ok()) status = writer.write(between);
     if (status.ok()) status = copy_meshes_and_gops(stream, writer);
@@ -173,6 +168,32 @@ Stream make_points() {
   return encode_sequence(points, options_of(10, 8, Predictor::kTime, 50));
 }
 
+/// Meshes that come again: of the last two a decoder keeps, and the first of three after it has gone.
+Stream make_meshes_again() {
+  Stream stream;
+  EncodeOptions options = options_of(6, 4, Predictor::kElp, 2);
+  options.max_meshes = 2;
+  options.max_vertices = 231;
+  options.max_faces = 355;
+  Encoder encoder(options, [&stream](Bytes bytes) {
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+    return Status();
+  });
+  Sequence points = triangle(6);
+  points.mesh.faces.clear();
+  const Sequence sequences[] = {triangle(6), corpus_sequence("soup", 6), points};
+  std::size_t frame = 0;
+  for (const std::size_t which : {0, 1, 0, 2, 0, 1}) {
+    const Sequence& sequence = sequences[which];
+    Status status = encoder.set_mesh(sequence.mesh);
+    if (status.ok()) status = encoder.add_frame(sequence.frames[frame++]);
+    if (!status.ok()) stop(status.error().describe());
+  }
+  const auto report = encoder.finish();
+  if (!report) stop(report.error().describe());
+  return stream;
+}
+
 }  // namespace
 
 const std::vector<ConformanceStream>& conformance_streams() {
@@ -207,6 +228,7 @@ const std::vector<ConformanceStream>& conformance_streams() {
        [] {
          return join({make_uniform("cloth", 2, 6, Predictor::kElp), make_step()});
        }},
+      {"meshes_again", "two meshes in force, meshes that come again", make_meshes_again},
       {"unknown_chunk", "an ancillary chunk of a type that nobody knows",
        [] {
          constexpr std::array<std::uint8_t, 2> kNote = {'h', 'i'};

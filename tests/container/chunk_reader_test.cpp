@@ -26,29 +26,44 @@ void append(Buffer& target, Bytes bytes) {
 }
 
 Buffer head_chunk() {
-  StreamLimits limits{10, 10, 4, 1000, 0};
+  StreamLimits limits{10, 10, 4, 1000, 2, 300, 0};
   limits.decoder_memory = decoder_memory_needed(limits);
   return write_chunk(kHeadChunk, false, write_head(limits));
 }
 
 /// The reader looks at the counts of a mesh and no further.
-Buffer mesh_payload() {
-  return write_mesh({3, 1, false, Buffer{1, 2, 3}, {}});
+Buffer mesh_payload(std::uint8_t which = 0) {
+  return write_mesh({3, 1, false, Buffer{1, 2, which}, {}});
 }
 
-Buffer gop_chunk(std::uint32_t frames, std::uint64_t label = 0) {
-  GopHeader header{};
+Buffer gop_chunk(std::uint32_t frames, std::uint64_t label = 0, std::uint8_t mesh = 0) {
+  GopHeader header;
+  header.mesh = checksum(mesh_payload(mesh));
   header.first_frame = label;
   header.frame_count = frames;
-  header.fine_bits = header.coarse_bits = 8;
-  header.step = 1;
-  const Buffer first = write_gop_header(header);
-  const std::uint32_t mesh = checksum(mesh_payload());
+  header.packet_count = frames + 2;
   ByteWriter gop;
-  write_packet(gop, 0, first);
-  for (std::uint32_t k = 1; k <= frames + 1; ++k)
-    write_packet(gop, packet_seed(checksum(first), mesh, k), Buffer(k, static_cast<std::uint8_t>(k)));
+  const std::uint32_t header_checksum = write_packet(gop, 0, packet_kind::kHeader, write_gop_header(header));
+  for (std::uint32_t k = 1; k <= frames; ++k) {
+    write_packet(gop, packet_seed(header_checksum, k), packet_kind::frame(Predictor::kElp),
+                 Buffer(k, static_cast<std::uint8_t>(k)));
+  }
+  write_packet(gop, packet_seed(header_checksum, frames + 1), 200, Buffer{1});
+  write_packet(gop, packet_seed(header_checksum, frames + 2), packet_kind::kDigest, Buffer(9));
   return write_chunk(kGopChunk, false, gop.data());
+}
+
+Buffer data_payload() {
+  return {1, 'x', 0, 2, '{', '}'};
+}
+
+Buffer plan_payload() {
+  ByteWriter plan;
+  plan.u32(checksum(mesh_payload()));
+  plan.varint(0);
+  plan.varint(9);
+  plan.bytes(Buffer(100, 7));
+  return plan.take();
 }
 
 Buffer chunk_of(ChunkKind kind) {
@@ -57,8 +72,12 @@ Buffer chunk_of(ChunkKind kind) {
       return head_chunk();
     case ChunkKind::kMetadata:
       return write_chunk(kMetadataChunk, true, write_metadata({{"fps", "30"}}));
+    case ChunkKind::kData:
+      return write_chunk(kDataChunk, true, data_payload());
     case ChunkKind::kMesh:
       return write_chunk(kMeshChunk, false, mesh_payload());
+    case ChunkKind::kPlan:
+      return write_chunk(kPlanChunk, false, plan_payload());
     case ChunkKind::kGop:
       return gop_chunk(2);
     case ChunkKind::kIndex:
@@ -94,7 +113,8 @@ Reading read_all(Bytes stream, std::size_t piece) {
     }
     append(reading.structures, reader.raw());
     reading.events.push_back(event);
-    if (event == Event::kProblem) reading.problems.push_back(reader.problem().error.message);
+    if (event == Event::kProblem || event == Event::kGopLost)
+      reading.problems.push_back(reader.problem().error.message);
     if (event == Event::kFailed) reading.error = reader.error().message;
     if (event == Event::kFailed || event == Event::kEnd) return reading;
   }
@@ -108,21 +128,25 @@ Buffer stream_of(const std::vector<ChunkKind>& kinds) {
 
 TEST(ChunkOrder, EveryPairOfStateAndChunkIsWhatTheTableSays) {
   using K = ChunkKind;
-  const std::array<std::vector<K>, 4> states = {
-      {{}, {K::kHead, K::kMesh}, {K::kHead, K::kMesh, K::kIndex}, {K::kHead, K::kIndex, K::kTail}}};
-  // t: taken, m: malformed and passed over, i: malformed and taken, e: the end of reading.
-  const std::array<std::string, 4> table = {"teeeeeee", "mtttttte", "mmmmmtte", "eeeeeeee"};
-  const std::string body = "mttttite";  // a tail without an index
+  const std::array<std::vector<K>, 5> states = {{{},
+                                                 {K::kHead},
+                                                 {K::kHead, K::kMesh},
+                                                 {K::kHead, K::kMesh, K::kIndex},
+                                                 {K::kHead, K::kIndex, K::kTail}}};
+  // t: taken, m: malformed and passed over, i: malformed and taken, o: malformed by what it names, e: the end
+  // of reading.
+  const std::array<std::string, 5> table = {"teeeeeeeee", "mtttootite", "mttttttite", "mmmmmmmtte",
+                                            "eeeeeeeeee"};
   for (std::size_t state = 0; state < states.size(); ++state) {
     for (std::size_t k = 0; k < kChunkKinds; ++k) {
       SCOPED_TRACE(testing::Message() << "state " << state << ", chunk " << k);
-      const char expected = (state == 1 ? body : table[state])[k];
+      const char expected = table[state][k];
       std::vector<K> kinds = states[state];
       const Reading before = read_all(stream_of(kinds), 1000);
       kinds.push_back(static_cast<K>(k));
       const Reading after = read_all(stream_of(kinds), 1000);
       // An index without the mesh does not match; it counts as taken.
-      EXPECT_EQ(after.problems.size(), expected == 'm' || expected == 'i' ? 1u : 0u);
+      EXPECT_EQ(after.problems.size(), expected == 'm' || expected == 'i' || expected == 'o' ? 1u : 0u);
       const bool read_on = after.error.empty() || after.error == "the stream ends before it is complete";
       EXPECT_EQ(read_on, expected != 'e') << after.error;
       if (expected == 'm') {
@@ -140,7 +164,7 @@ TEST(ChunkReader, AnyPiecesGiveTheSameStructuresAndAllBytesOfThem) {
   EXPECT_THAT(whole.events,
               ElementsAre(Event::kChunk, Event::kHead, Event::kChunk, Event::kMetadata, Event::kChunk,
                           Event::kMesh, Event::kChunk, Event::kGop, Event::kFrame, Event::kFrame,
-                          Event::kDigest, Event::kGopEnd, Event::kFailed));
+                          Event::kPacket, Event::kDigest, Event::kGopEnd, Event::kFailed));
   EXPECT_THAT(whole.error, HasSubstr("ends before"));
   for (const std::size_t piece : {1u, 2u, 3u, 7u, 30u}) {
     const Reading pieces = read_all(stream, piece);
@@ -158,21 +182,22 @@ TEST(ChunkReader, APayloadAboveItsBoundIsNotWaitedFor) {
     header.u32(checksum(header.data()));
     return header.take();
   };
-  // 10 vertices and 10 faces are declared; before the index lie 60 bytes, and a chunk takes 20.
+  // Meshes of 300 bytes are declared.
   const struct {
     Buffer header;
     const char* message;
   } cases[] = {
-      {announced(kMetadataChunk, true, kMaxSmallPayload + 1), "too long"},
-      {announced(kMeshChunk, false, 64 + 16 * 20 + 1), "too long"},
-      {announced(kIndexChunk, true, 10 + 14 * 3 + 1), "too long"},
-      {announced(kTailChunk, false, kMaxSmallPayload + 1), "too long"},
-      {announced(kMeshChunk, false, 64 + 16 * 20), ""},
-      {announced(kIndexChunk, true, 10 + 14 * 3), ""},
+      {announced(kMetadataChunk, true, kMaxMetadataPayload + 1), "too long"},
+      {announced(kDataChunk, true, kMaxDataPayload + 1), "too long"},
+      {announced(kMeshChunk, false, 301), "too long"},
+      {announced(kIndexChunk, true, (1 << 20) + 1), "too long"},
+      {announced(kMeshChunk, false, 300), ""},
+      {announced(kIndexChunk, true, 1 << 20), ""},
+      {announced(kPlanChunk, false, kMaxChunkLength), ""},
+      {announced(kGopChunk, false, kMaxChunkLength), ""},
   };
   for (const auto& [header, message] : cases) {
     Buffer stream = stream_of({ChunkKind::kHead});
-    ASSERT_EQ(stream.size(), 60u);
     append(stream, header);
     ChunkReader reader{DecoderLimits()};
     ASSERT_TRUE(reader.push(stream));
@@ -191,9 +216,20 @@ TEST(ChunkReader, AGopWhoseMeshIsGoneIsCountedAndPassedOver) {
   Buffer stream = stream_of({ChunkKind::kHead, ChunkKind::kGop, ChunkKind::kMesh, ChunkKind::kGop});
   const Reading reading = read_all(stream, 5);
   EXPECT_THAT(reading.events,
-              ElementsAre(Event::kChunk, Event::kHead, Event::kChunk, Event::kOrphan, Event::kChunk,
+              ElementsAre(Event::kChunk, Event::kHead, Event::kChunk, Event::kGopLost, Event::kChunk,
                           Event::kMesh, Event::kChunk, Event::kGop, Event::kFrame, Event::kFrame,
-                          Event::kDigest, Event::kGopEnd, Event::kFailed));
+                          Event::kPacket, Event::kDigest, Event::kGopEnd, Event::kFailed));
+}
+
+TEST(ChunkReader, TheLatestMeshesAreInForceAndOneThatComesAgainIsTheLatest) {
+  const auto mesh = [](std::uint8_t which) { return write_chunk(kMeshChunk, false, mesh_payload(which)); };
+  Buffer stream(kSignature.begin(), kSignature.end());
+  for (const Buffer& chunk : {head_chunk(), mesh(1), mesh(2), gop_chunk(1, 0, 1), gop_chunk(1, 1, 2), mesh(1),
+                              mesh(3), gop_chunk(1, 2, 1), gop_chunk(1, 3, 2), gop_chunk(1, 4, 3)})
+    append(stream, chunk);
+  const Reading reading = read_all(stream, 1000);
+  EXPECT_EQ(std::count(reading.events.begin(), reading.events.end(), Event::kGop), 4);
+  EXPECT_THAT(reading.problems, ElementsAre(HasSubstr("not in force"))) << "mesh 2, of the second-last GOP";
 }
 
 TEST(ChunkReader, GoesOnAtAnyChunk) {
@@ -202,11 +238,13 @@ TEST(ChunkReader, GoesOnAtAnyChunk) {
   ASSERT_TRUE(reader.push(start));
   while (reader.next() != Event::kNeedBytes) {
   }
-  reader.jump(1000000);
+  const std::array<std::uint64_t, 1> mesh = {start.size() - chunk_of(ChunkKind::kMesh).size()};
+  reader.jump(1000000, mesh);
   ASSERT_TRUE(reader.push(gop_chunk(1)));
   EXPECT_EQ(reader.next(), Event::kChunk);
   EXPECT_EQ(reader.chunk_offset(), 1000000u);
   EXPECT_EQ(reader.next(), Event::kGop);
+  EXPECT_EQ(reader.gop_mesh_offset(), mesh[0]);
   reader.pass_over();
   EXPECT_EQ(reader.next(), Event::kNeedBytes);
   EXPECT_TRUE(reader.at_chunk());

@@ -4,7 +4,9 @@
 #include "container/head.hpp"
 #include "container/mesh_payload.hpp"
 #include "container/packet.hpp"
+#include "container/stream_writer.hpp"
 #include "judge.hpp"
+#include "modes/elp_header.hpp"
 #include "repair.hpp"
 
 #include <array>
@@ -26,7 +28,7 @@ void append(Stream& stream, const Stream& bytes) {
 
 /// A stream that declares as much as a decoder lets it, and then has these chunks.
 Stream hostile(const std::vector<Stream>& chunks) {
-  StreamLimits limits{1u << 23, 1u << 23, 1u << 16, 1u << 28, 0};
+  StreamLimits limits{1u << 22, 1u << 22, 1u << 16, 1u << 28, 4, 1u << 28, 0};
   limits.decoder_memory = decoder_memory_needed(limits);
   Stream stream(kSignature.begin(), kSignature.end());
   append(stream, write_chunk(kHeadChunk, false, write_head(limits)));
@@ -65,8 +67,15 @@ Stream long_chunk(ChunkType type, std::uint32_t length) {
 std::vector<Stream> empty_frames() {
   Stream mesh = write_chunk(kMeshChunk, false, write_mesh({1, 0, false, Stream{0}, {}}));
   ByteWriter gop;
-  const Stream header = write_gop_header({0, 1u << 16, 2, 24, 1, {0, 0, 0}, 1e-300, {}});
-  write_packet(gop, 0, header);
+  const Stream fields =
+      write_elp_header({.origin = {0, 0, 0}, .step = 1e-300, .fine_bits = 24, .coarse_bits = 1}, {});
+  GopHeader header;
+  header.mesh = mesh_id(mesh);
+  header.frame_count = 1u << 16;
+  header.packet_count = kHuge;
+  header.fields = fields;
+  write_packet(gop, 0, packet_kind::kHeader, write_gop_header(header));
+  gop.u8(packet_kind::kFrame);
   gop.varint(kHuge);
   return {mesh, write_chunk(kGopChunk, false, gop.data())};
 }
@@ -81,11 +90,13 @@ std::vector<HostileFile> hostile_files() {
   for (int i = 0; i < 10; ++i) nested.push_back(long_chunk(kMeshChunk, 1000 + static_cast<std::uint32_t>(i)));
   return {
       {"limits only", hostile({})},
-      {"millions of vertices in one byte", hostile({mesh_chunk(1u << 23, 1u << 23, 1, 0)})},
+      {"millions of vertices in one byte", hostile({mesh_chunk(1u << 22, 1u << 22, 1, 0)})},
       {"as many vertices as the bytes may stand for", hostile({mesh_chunk(12800, 0, 100, 0)})},
       {"as many faces as the bytes may stand for", hostile({mesh_chunk(3, 12797, 100, 0)})},
       {"roots", hostile({mesh_chunk(6400, 6400, 100, 0xFF)})},
       {"noise", hostile({mesh_chunk(4000, 8000, 100, 0x5A)})},
+      {"data without end", hostile({long_chunk(kDataChunk, 1u << 26)})},
+      {"planes without end", hostile({mesh_chunk(1, 0, 1, 0), count_chunk(kPlanChunk, kHuge, 100)})},
       {"metadata without end", hostile({count_chunk(kMetadataChunk, kHuge, 100)})},
       {"an index without end", hostile({count_chunk(kIndexChunk, kHuge, 100)})},
       {"frames without end", hostile(empty_frames())},

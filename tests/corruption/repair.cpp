@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace tvg::corruption {
 
@@ -23,7 +24,8 @@ std::uint32_t get_u32(Bytes source) {
 }
 
 bool known_type_at(Bytes bytes) {
-  constexpr std::array kKnown = {kHeadChunk, kMetadataChunk, kMeshChunk, kGopChunk, kIndexChunk, kTailChunk};
+  constexpr std::array kKnown = {kHeadChunk, kMetadataChunk, kDataChunk,  kMeshChunk,
+                                 kPlanChunk, kGopChunk,      kIndexChunk, kTailChunk};
   return std::any_of(kKnown.begin(), kKnown.end(), [bytes](const ChunkType& type) {
     return std::equal(type.begin(), type.end(), bytes.begin(), [](char letter, std::uint8_t byte) {
       return static_cast<std::uint8_t>(letter) == byte;
@@ -35,6 +37,7 @@ std::vector<Extent> find_packets(Bytes stream, Extent payload) {
   std::vector<Extent> packets;
   while (payload.size > 0) {
     ByteReader reader(stream.subspan(payload.begin, payload.size));
+    reader.u8();
     reader.bytes(reader.varint());
     reader.u32();
     if (!reader.ok()) break;
@@ -71,27 +74,42 @@ void repair_lengths(std::span<std::uint8_t> stream) {
   }
 }
 
+namespace {
+
+/// The GOP's packets, and the mesh they name where that has another name now.
+void repair_packets(std::span<std::uint8_t> stream, const ChunkExtent& gop,
+                    const std::map<std::uint32_t, std::uint32_t>& names) {
+  std::uint32_t header_checksum = 0;
+  for (std::size_t k = 0; k < gop.packets.size(); ++k) {
+    const auto packet = stream.subspan(gop.packets[k].begin, gop.packets[k].size);
+    if (k == 0) {
+      ByteReader reader(packet);
+      reader.u8();
+      reader.varint();
+      const auto name = packet.subspan(std::min(reader.position(), packet.size()));
+      const auto renamed = name.size() >= 4 ? names.find(get_u32(name)) : names.end();
+      if (renamed != names.end()) put_u32(name, renamed->second);
+    }
+    const std::uint64_t seed = k == 0 ? 0 : packet_seed(header_checksum, static_cast<std::uint32_t>(k));
+    const std::uint32_t sum = checksum(packet.first(packet.size() - kChunkChecksumSize), seed);
+    if (k == 0) header_checksum = sum;
+    put_u32(packet.last(kChunkChecksumSize), sum);
+  }
+}
+
+}  // namespace
+
 void repair_checksums(std::span<std::uint8_t> stream) {
-  std::uint32_t mesh_checksum = 0;
+  std::map<std::uint32_t, std::uint32_t> names;  ///< of meshes: what they were, what they are
   for (const ChunkExtent& chunk : find_chunks(stream)) {
     const auto bytes = stream.subspan(chunk.whole.begin, chunk.whole.size);
     put_u32(bytes.subspan(kHeaderChecksumOffset), checksum(bytes.first(kHeaderChecksumOffset)));
-    std::uint32_t header_checksum = 0;
-    for (std::size_t k = 0; k < chunk.packets.size(); ++k) {
-      const auto packet = stream.subspan(chunk.packets[k].begin, chunk.packets[k].size);
-      ByteReader reader(packet);
-      const Bytes content = reader.bytes(reader.varint());
-      const std::uint64_t seed =
-          k == 0 ? 0 : packet_seed(header_checksum, mesh_checksum, static_cast<std::uint32_t>(k));
-      const std::uint32_t sum = checksum(content, seed);
-      if (k == 0) header_checksum = sum;
-      put_u32(packet.last(kChunkChecksumSize), sum);
-    }
-    const auto payload =
-        bytes.subspan(kChunkHeaderSize, bytes.size() - kChunkHeaderSize - kChunkChecksumSize);
-    put_u32(bytes.last(kChunkChecksumSize), checksum(payload));
+    repair_packets(stream, chunk, names);
+    const auto sum = bytes.last(kChunkChecksumSize);
+    const std::uint32_t before = get_u32(sum);
+    put_u32(sum, checksum(bytes.subspan(kChunkHeaderSize, bytes.size() - kLeastChunkSize)));
     if (read_chunk_header(bytes) && read_chunk_header(bytes)->type == kMeshChunk)
-      mesh_checksum = checksum(payload);
+      names[before] = get_u32(sum);
   }
 }
 

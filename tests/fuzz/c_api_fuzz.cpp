@@ -22,6 +22,7 @@ tvg_limits small_limits() {
   tvg_limits_init(&limits);
   limits.vertices = 1u << 12;
   limits.faces = 1u << 13;
+  limits.meshes = 8;
   limits.memory_bytes = 64u << 20;
   return limits;
 }

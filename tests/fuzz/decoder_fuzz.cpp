@@ -28,6 +28,8 @@ tvg::DecoderLimits small_limits() {
   limits.faces = 1u << 16;
   limits.frames_per_gop = 1u << 10;
   limits.packet_bytes = 1u << 20;
+  limits.meshes = 8;
+  limits.mesh_bytes = 1u << 18;
   limits.memory = std::uint64_t{64} << 20;
   return limits;
 }
@@ -99,7 +101,7 @@ std::size_t decode(std::span<const std::uint8_t> stream, std::size_t piece, std:
         break;
       case Decoder::Event::kEnd:
       case Decoder::Event::kError:
-        return std::size_t{tvg::decoder_memory_needed(decoder.head().limits)} +
+        return std::size_t{decoder.head().limits.decoder_memory} +
                80 * std::size_t{decoder.head().limits.vertices};
       default:
         break;

@@ -1,10 +1,5 @@
 #include "container/chunk.hpp"
-#include "container/gop_header.hpp"
-#include "container/head.hpp"
-#include "container/index.hpp"
 #include "container/mesh_payload.hpp"
-#include "container/metadata.hpp"
-#include "container/packet.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,8 +10,8 @@
 #include <string>
 #include <vector>
 
-// tvg_make_seeds STREAMS FOLDER: turns the streams of a folder into seeds for each fuzz target in a folder of
-// its name.
+// tvg_make_seeds STREAMS FOLDER: turns the valid streams of corpus/conformance into seeds for each fuzz target
+// in a folder of its name.
 namespace {
 
 namespace fs = std::filesystem;
@@ -103,8 +98,8 @@ int main(int argc, char** argv) {
   fs::create_directories(target / "c_api_fuzz", failed);
   fs::create_directories(target / "streams_fuzz", failed);
   int count = 0;
-  for (const auto& entry : fs::directory_iterator(argv[1], failed)) {
-    if (entry.path().extension() != ".tvg") continue;
+  for (const auto& entry : fs::recursive_directory_iterator(argv[1], failed)) {
+    if (entry.path().extension() != ".tvg" || entry.path().parent_path().filename() == "negative") continue;
     std::ifstream file(entry.path(), std::ios::binary);
     const std::vector<std::uint8_t> stream{std::istreambuf_iterator<char>(file),
                                            std::istreambuf_iterator<char>()};

@@ -31,6 +31,8 @@ tvg::DecoderLimits small_limits() {
   limits.faces = 1u << 13;
   limits.frames_per_gop = 1u << 8;
   limits.packet_bytes = 1u << 18;
+  limits.meshes = 8;
+  limits.mesh_bytes = 1u << 18;
   limits.memory = std::uint64_t{32} << 20;
   return limits;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the reference decoder of format-spec/next on its streams, and holds it against the text it was written from.
+"""Runs the reference decoder of format-spec on all conformance streams, and holds it against the text it was written from.
 
     python3 reference_test.py PROJECT [TEST...]
 """
@@ -13,14 +13,14 @@ import unittest
 sys.dont_write_bytecode = True
 PROJECT = os.path.abspath(sys.argv[1]) if __name__ == "__main__" else os.environ["TVG_PROJECT"]
 os.environ["TVG_PROJECT"] = PROJECT  # for the processes of a pool
-sys.path.insert(0, os.path.join(PROJECT, "format-spec", "next", "reference"))
+sys.path.insert(0, os.path.join(PROJECT, "format-spec", "reference"))
 
 import negative_base  # noqa: E402
 import negative_streams  # noqa: E402
 import random_streams  # noqa: E402
 import tvg_reference as reference  # noqa: E402
 
-STREAMS = os.path.join(PROJECT, "format-spec", "next", "streams")
+STREAMS = os.path.join(PROJECT, "corpus", "conformance")
 
 def stored(*names):
     with open(os.path.join(STREAMS, *names), "rb") as file:
@@ -47,7 +47,7 @@ def verdict(data):
 
 def table_of_the_text():
     """§3.4: for each state its cells, and the heads of the columns."""
-    with open(os.path.join(PROJECT, "format-spec", "next", "tvg.md"), encoding="utf-8") as file:
+    with open(os.path.join(PROJECT, "format-spec", "tvg.md"), encoding="utf-8") as file:
         section = file.read().split("### 3.4 ")[1].split("\n### ")[0]
     rows = [[cell.strip(" ").strip("`") for cell in line.strip("|").split("|")]
             for line in section.splitlines() if line.startswith("|") and not line.startswith("|--")]
@@ -58,7 +58,7 @@ class TheReference(unittest.TestCase):
 
     def test_gives_the_digests_of_every_valid_stream(self):
         with concurrent.futures.ProcessPoolExecutor() as pool:
-            for folder in ("random",):
+            for folder in ("", "random"):
                 listed = lines(folder, "digests.txt")
                 paths = {name: os.path.join(STREAMS, folder, name + ".tvg") for name in listed}
                 found = dict(zip(listed, pool.map(facts, paths.values())))
@@ -79,7 +79,7 @@ class TheReference(unittest.TestCase):
         self.assertEqual(columns, [c.decode() if isinstance(c, bytes) else c for c in reference.COLUMNS])
 
     def test_finds_every_section_it_names_in_the_text(self):
-        with open(os.path.join(PROJECT, "format-spec", "next", "tvg.md"), encoding="utf-8") as file:
+        with open(os.path.join(PROJECT, "format-spec", "tvg.md"), encoding="utf-8") as file:
             sections = set(re.findall(r"^#+ ([0-9.]*[0-9])\.? ", file.read(), re.MULTILINE))
         for name, expected in lines("negative", "negative.txt").items():
             self.assertIn(expected.split()[1].lstrip("§"), sections, name)

@@ -80,7 +80,9 @@ std::vector<Malformed> malformed_streams() {
   const auto put = [](std::vector<Stream>& chunks, std::size_t at, const Stream& chunk) {
     chunks.insert(chunks.begin() + static_cast<std::ptrdiff_t>(at), chunk);
   };
-  const auto index_of = [](const std::vector<Stream>& chunks) { return *read_index(payload_of(chunks[6])); };
+  const auto index_of = [](const std::vector<Stream>& chunks) {
+    return read_index(payload_of(chunks[6]))->entries;
+  };
   return {
       {"an index that counts a million", "more index entries", 0,
        [](auto& chunks) { set_index(chunks, absurd_index(1000000)); }},
@@ -90,6 +92,12 @@ std::vector<Malformed> malformed_streams() {
        [](auto& chunks) { set_index(chunks, absurd_index(std::uint64_t{1} << 63)); }},
       {"an index of 17 MiB", "too long", 0,
        [](auto& chunks) { set_index(chunks, absurd_index(1000000, std::size_t{17} << 20)); }},
+      {"an index with another mesh", "a GOP's index entry is out of range", 0,
+       [=](auto& chunks) {
+         auto entries = index_of(chunks);
+         ++entries[2].meshes_back;
+         set_index(chunks, write_index(entries));
+       }},
       {"an index of garbage", "index", 0, [](auto& chunks) { set_index(chunks, Stream(40, 0x55)); }},
       {"an index without the last GOP", "the index does not match", 0,
        [=](auto& chunks) {
@@ -137,7 +145,7 @@ std::vector<Malformed> malformed_streams() {
        }},
       {"a GOP's checksum that is damaged", "the checksum of a GOP", 0,
        [](auto& chunks) { chunks[3].back() ^= 1; }},
-      {"a GOP with a byte behind its digest", "bytes follow a GOP's digest", 0,
+      {"a GOP with a byte behind its digest", "bytes follow the packets of a GOP", 0,
        [](auto& chunks) {
          const Bytes payload = payload_of(chunks[3]);
          Stream longer(payload.begin(), payload.end());
@@ -151,7 +159,8 @@ std::vector<Malformed> malformed_streams() {
       {"a GOP flagged ancillary", "flag", 2, [=](auto& chunks) { chunks[3] = flagged_otherwise(chunks[3]); }},
       {"a mesh flagged ancillary", "flag", 7,
        [=](auto& chunks) { chunks[1] = flagged_otherwise(chunks[1]); }},
-      {"a GOP before the mesh", "before any mesh", 2, [=](auto& chunks) { std::swap(chunks[1], chunks[2]); }},
+      {"a GOP before the mesh", "the mesh of a GOP is not in force", 2,
+       [=](auto& chunks) { std::swap(chunks[1], chunks[2]); }},
   };
 }
 

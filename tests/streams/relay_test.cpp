@@ -219,19 +219,24 @@ TEST(Relay, DeclaredLimitsAboveTheCallersAreRefused) {
   EXPECT_EQ(split_whole(stream, limits).error->code, ErrorCode::kLimitExceeded);
 }
 
-TEST(Relay, AGopOfAnotherMeshIsRefused) {
+TEST(Relay, AGopWhoseMeshIsNotInForceIsAnArgumentError) {
   const Stream stream = conformance::make_stream("two_meshes");
-  std::vector<StreamPart> parts = split_whole(stream).parts;
-  std::vector<StreamPart> meshes, gops;
-  for (StreamPart& part : parts) {
-    if (part.kind == StreamPart::Kind::kMesh) meshes.push_back(part);
+  StreamAssembler assembler([](std::span<const std::uint8_t>) { return Status(); });
+  std::vector<StreamPart> gops;
+  for (const StreamPart& part : split_whole(stream).parts) {
+    if (part.kind == StreamPart::Kind::kHead) {
+      ASSERT_TRUE(assembler.begin(part.limits, {}).ok());
+    }
+    if (part.kind == StreamPart::Kind::kMesh) {
+      ASSERT_TRUE(assembler.write_mesh(part.chunk).ok());
+    }
     if (part.kind == StreamPart::Kind::kGop) gops.push_back(part);
   }
-  ASSERT_GE(meshes.size(), 2U);
-  const std::vector<StreamPart> mixed = {parts[0], meshes[1], gops[0]};
-  const Split result = split_whole(assemble(mixed, 1, mixed.size()));
-  ASSERT_TRUE(result.error);
-  EXPECT_EQ(result.error->code, ErrorCode::kChecksumMismatch);
+  ASSERT_NE(gops.front().mesh, gops.back().mesh);
+  EXPECT_TRUE(assembler.write_gop(gops.back().chunk, gops.back().frame_count).ok());
+  const Status status = assembler.write_gop(gops.front().chunk, gops.front().frame_count);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().code, ErrorCode::kInvalidArgument);
 }
 
 TEST(Relay, BytesAfterTheEndAreRefused) {

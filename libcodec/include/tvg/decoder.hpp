@@ -26,7 +26,6 @@ struct GopInfo {
   std::uint64_t first_frame = 0;   ///< position in the stream
   std::uint64_t source_frame = 0;  ///< number of its first frame in the sequence that was encoded
   std::uint32_t frame_count = 0;
-  Predictor predictor = Predictor::kElp;
   int fine_bits = 0;    ///< B2
   int coarse_bits = 0;  ///< B1
   std::array<double, 3> origin{};
@@ -75,7 +74,7 @@ class Decoder {
     kChunk,      ///< a chunk begins: chunk()
     kHead,       ///< head() is valid
     kMetadata,   ///< metadata() is valid
-    kMesh,       ///< mesh() is valid; frames that follow belong to it
+    kMesh,       ///< mesh() is another; frames that follow belong to it
     kGop,        ///< gop() is valid
     kFrame,      ///< a frame is decoded: frame_number(), copy_positions()
     kDamage,     ///< frames are missing, or something else is wrong: damage(); decoding goes on
@@ -118,7 +117,9 @@ class Decoder {
 
   /// Position of the current frame in the stream, counted from 0; frames that were lost count.
   std::uint64_t frame_number() const;
-  /// Bytes of the current frame's packet with its size and checksum.
+  /// What the current frame was predicted from.
+  Predictor frame_predictor() const;
+  /// Bytes of the current frame's packet with its kind, size and checksum.
   std::uint64_t frame_bytes() const;
   /// Bits that the residuals of x, y and z take in the current frame's packet, after measure_bits(true).
   const std::array<double, 3>& frame_bits() const;

@@ -37,6 +37,9 @@ struct EncodeOptions {
   /// Bounds for the meshes to come, which the head declares; what the first mesh has where it has more.
   std::uint32_t max_vertices = 0;
   std::uint32_t max_faces = 0;
+  /// How many meshes a decoder must keep, 1 to 65536: one of the last so many that comes again is not sent
+  /// again.
+  std::uint32_t max_meshes = 1;
 };
 
 /// What encoding made, in bytes.

@@ -22,8 +22,8 @@ struct StreamPart {
   enum class Kind {
     kHead,      ///< limits; comes first
     kMetadata,  ///< metadata
-    kMesh,      ///< chunk: the mesh of the GOPs that follow
-    kGop,       ///< chunk, frame_count, first_frame
+    kMesh,      ///< chunk, mesh: a mesh that GOPs behind it may name
+    kGop,       ///< chunk, mesh, frame_count, first_frame
     kEnd,       ///< the stream is complete; nothing follows
   };
 
@@ -31,6 +31,7 @@ struct StreamPart {
   StreamLimits limits;
   Metadata metadata;
   std::vector<std::uint8_t> chunk;  ///< from the first byte of its header to its checksum
+  std::uint32_t mesh = 0;           ///< name of the mesh, or of the one that the GOP belongs to
   std::uint32_t frame_count = 0;
   std::uint64_t first_frame = 0;  ///< number of the GOP's first frame in the sequence it was encoded from
 };
@@ -83,14 +84,16 @@ class StreamAssembler {
 
   /// Signature, head and, where there are any, metadata.
   Status begin(const StreamLimits& limits, const Metadata& metadata);
-  /// A mesh chunk as StreamPart has it; GOPs that follow belong to it.
+  /// A mesh chunk as StreamPart has it; nothing is written where the mesh is in force already. kInvalidInput
+  /// where another mesh of its name is.
   Status write_mesh(std::span<const std::uint8_t> chunk);
-  /// A GOP chunk as StreamPart has it; kInvalidArgument before any mesh.
+  /// A GOP chunk as StreamPart has it; kInvalidArgument where the mesh that it names is not in
+  /// force.
   Status write_gop(std::span<const std::uint8_t> chunk, std::uint32_t frame_count);
   /// Index and tail.
   Status end();
 
-  /// GOPs written so far. The index takes about 24 bytes of memory for each.
+  /// GOPs written so far. The index takes 24 bytes of memory for each.
   std::uint64_t gops() const;
   /// Bytes written so far.
   std::uint64_t bytes() const;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,13 +23,14 @@ Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk)
 /// Frames of all GOPs of an index.
 std::uint64_t count_frames(std::span<const IndexEntry> index);
 
-/// Where the meshes and GOPs of a stream lie and which frames they hold: as they were met while reading from
-/// its start, or as its index says. Places are in the order of the stream.
+/// Where the chunks of a stream lie and which frames they hold: its meshes and GOPs as they were met while
+/// reading from its start, or all that its index has. Places are in the order of the stream.
 class StreamMap {
  public:
   struct Place {
     IndexEntry entry;
     std::uint64_t first_frame = 0;  ///< position in the stream of the first frame at or behind this place
+    std::optional<std::uint64_t> mesh_offset = {};  ///< of a GOP: where its mesh's chunk begins, if known
 
     std::uint64_t end_frame() const { return first_frame + entry.frame_count; }
   };
@@ -37,9 +39,9 @@ class StreamMap {
   /// The map that an index gives; empty where there is no memory for it.
   explicit StreamMap(std::span<const IndexEntry> index) { set_index(index); }
 
-  /// Takes note of a chunk that was read; one that lies before the last one is known already. False where
-  /// there is no memory.
-  bool note(const IndexEntry& entry, std::uint64_t first_frame);
+  /// Takes note of a chunk that was read; one that lies before the last one is known already, and an index
+  /// knows all. False where there is no memory.
+  bool note(const Place& place);
   /// Takes over an index, which knows the whole stream. False, and an empty map, where there is no memory.
   bool set_index(std::span<const IndexEntry> entries);
 
@@ -50,8 +52,10 @@ class StreamMap {
   std::uint64_t frame_count() const { return places_.empty() ? 0 : places_.back().end_frame(); }
   /// The GOP that holds `frame`, or the last one where all end before; null where no GOP is known.
   const Place* gop_for(std::uint64_t frame) const;
-  /// The mesh of a GOP of this map; null where the stream gives it none.
-  const Place* mesh_of(const Place& gop) const;
+  /// Where the chunks of meshes begin that decoding needs which begins at this GOP of the map, of a stream
+  /// with so many meshes in force, ascending: those that it and the GOPs behind it name and that lie before
+  /// it; without an index the last ones too, since what follows is not known. Empty where there is no memory.
+  std::vector<std::uint64_t> meshes_for(const Place& gop, std::uint32_t meshes_in_force) const;
   /// The place that begins at `offset`, or null.
   const Place* at(std::uint64_t offset) const;
   /// Whether an index says the same.

@@ -58,7 +58,7 @@ extern "C" {
 
 /* The version of this header; tvg_version() is that of the library in use. */
 #define TVG_VERSION_MAJOR 0
-#define TVG_VERSION_MINOR 1
+#define TVG_VERSION_MINOR 2
 #define TVG_VERSION_PATCH 0
 #define TVG_VERSION ((TVG_VERSION_MAJOR << 16) | (TVG_VERSION_MINOR << 8) | TVG_VERSION_PATCH)
 
@@ -74,11 +74,12 @@ typedef enum tvg_code {
   TVG_ERROR_INVALID_INPUT = 11,    /* geometry that cannot be encoded: not finite, an index out of range */
   TVG_ERROR_WRONG_STATE = 12,      /* what is asked for is not there yet, or not any more */
   TVG_ERROR_NOT_TVG = 20,          /* the signature is missing */
-  TVG_ERROR_UNSUPPORTED_VERSION = 21, /* a version or a critical chunk this library does not know */
+  TVG_ERROR_UNSUPPORTED_VERSION = 21, /* a version, a bound or a critical chunk this library does not know */
   TVG_ERROR_TRUNCATED = 22,           /* the bytes end before the stream does */
   TVG_ERROR_CHECKSUM_MISMATCH = 23,
   TVG_ERROR_MALFORMED = 24,
   TVG_ERROR_DIGEST_MISMATCH = 25, /* frames were given out and are not what was encoded */
+  TVG_ERROR_UNSUPPORTED = 26,     /* frames need what this library does not know; they may be valid */
   TVG_ERROR_LIMIT_EXCEEDED = 30,  /* the stream declares more than tvg_limits allows */
   TVG_ERROR_OUT_OF_MEMORY = 31,
   TVG_ERROR_IO = 40 /* a sink or a source of the caller's gave up */
@@ -106,6 +107,8 @@ typedef struct tvg_limits {
   uint32_t frames_per_gop; /* 2^16 unless set */
   uint32_t packet_bytes;   /* of one frame's packet; 2^29 unless set */
   uint64_t memory_bytes;   /* of the decoder; 4 GiB unless set */
+  uint32_t meshes;         /* kept at once; 2^16 unless set */
+  uint32_t mesh_bytes;     /* of one mesh's chunk; 2^30 unless set */
 } tvg_limits;
 
 /* What the head of a stream says, and its index where that is known. */
@@ -118,6 +121,7 @@ typedef struct tvg_stream_info {
   uint32_t frames_per_gop;
   uint64_t memory_bytes; /* the decoder needs no more */
   uint64_t frame_count;  /* of the whole stream; TVG_UNKNOWN without an index */
+  uint32_t meshes;       /* the decoder keeps no more at once */
 } tvg_stream_info;
 
 /* The connectivity of the frames that follow. */
@@ -144,6 +148,7 @@ typedef struct tvg_frame_info {
   size_t struct_size;
   uint64_t number;       /* position in the stream, counted from 0; lost frames count */
   uint64_t packet_bytes; /* what the frame takes in the stream */
+  uint32_t predictor;    /* a tvg_predictor: what it was predicted from */
 } tvg_frame_info;
 
 /* Frames that are missing or, with TVG_ERROR_DIGEST_MISMATCH and TVG_ERROR_MALFORMED, were given out and are
@@ -274,6 +279,8 @@ typedef struct tvg_encoder_options {
   uint32_t has_box;  /* not 0: every frame lies in this box, and all GOPs share a lattice; 0 unless set: */
   double box_low[3]; /* each GOP has a box of its own */
   double box_high[3];
+  uint32_t max_meshes; /* how many meshes a decoder keeps, at most 65536: one of the last so many that comes
+                          again is not sent again; 1 unless set */
 } tvg_encoder_options;
 
 /* What was encoded, or joined. */

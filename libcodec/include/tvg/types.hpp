@@ -25,11 +25,12 @@ enum class ErrorCode : int {
   kWrongState = 12,       ///< what is asked for is not there yet, or not any more
   // 2x: the bytes
   kNotTvg = 20,              ///< the signature is missing
-  kUnsupportedVersion = 21,  ///< a version or a critical chunk this decoder does not know
+  kUnsupportedVersion = 21,  ///< a version, a bound or a critical chunk this decoder does not know
   kTruncated = 22,           ///< the bytes end before the structure does
   kChecksumMismatch = 23,    ///< a checksum does not fit its bytes
   kMalformed = 24,           ///< a field has a value the specification forbids
   kDigestMismatch = 25,      ///< decoded integers differ from those that were encoded
+  kUnsupported = 26,         ///< frames need what this decoder does not know; they may be valid
   // 3x: resources
   kLimitExceeded = 30,  ///< a declared or actual size is above the caller's or the stream's limit
   kOutOfMemory = 31,    ///< an allocation failed
@@ -116,10 +117,9 @@ struct FrameRange {
 
 // --- streams ---
 
-/// Version of the format this library writes. A reader takes the same major version and any minor one up to
-/// its own.
+/// Version of the format this library reads and writes (format-spec §4.1).
 inline constexpr std::uint16_t kFormatMajor = 0;
-inline constexpr std::uint16_t kFormatMinor = 1;
+inline constexpr std::uint16_t kFormatMinor = 2;
 
 /// Bits of a lattice index (format-spec §7.1): predictions of 24-bit indices, residuals and all, stay within
 /// 32 bits.
@@ -138,21 +138,29 @@ enum class Predictor : std::uint8_t {
   kElp = 2,    ///< Extended Lorenzo: the parallelogram of the motion (the paper's Eq. 9)
 };
 
+/// Meshes that may be in force at once (format-spec §4.1).
+inline constexpr std::uint32_t kMaxMeshesInForce = 1u << 16;
+
 /// Upper bounds a stream declares for itself (format-spec §4.1).
 struct StreamLimits {
   std::uint32_t vertices = 0;        ///< of any mesh
   std::uint32_t faces = 0;           ///< of any mesh
   std::uint32_t frames_per_gop = 0;  ///< of any GOP
-  std::uint32_t packet_bytes = 0;    ///< of any packet
-  std::uint64_t decoder_memory = 0;  ///< bytes, as decoder_memory_needed() gives them
+  std::uint32_t packet_bytes = 0;    ///< of the content of any packet
+  std::uint32_t meshes = 1;          ///< in force at once: how many a decoder keeps
+  std::uint32_t mesh_bytes = 0;      ///< of any mesh chunk's payload
+  std::uint64_t decoder_memory = 0;  ///< bytes, at least what decoder_memory_needed() says of the others
 
   bool operator==(const StreamLimits&) const = default;
 };
 
 /// The memory a decoder of this library may need for a stream with these limits, in bytes (format-spec §8.2).
+/// Below 2^63 for any limits within their ranges.
 constexpr std::uint64_t decoder_memory_needed(const StreamLimits& limits) {
-  return (std::uint64_t{1} << 20) + 160 * std::uint64_t{limits.vertices} + 96 * std::uint64_t{limits.faces} +
-         4 * std::uint64_t{limits.packet_bytes};
+  const std::uint64_t vertices = limits.vertices, faces = limits.faces;
+  const std::uint64_t further_meshes = limits.meshes > 0 ? limits.meshes - 1 : 0;
+  return (std::uint64_t{1} << 20) + 160 * vertices + 96 * faces + 4 * std::uint64_t{limits.packet_bytes} +
+         limits.mesh_bytes + further_meshes * (512 + 24 * vertices + 16 * faces);
 }
 
 /// What the head of a stream says.
@@ -164,12 +172,20 @@ struct StreamHead {
 
 /// One line of a stream's index (format-spec §4.6).
 struct IndexEntry {
-  enum class Kind : std::uint8_t { kMesh = 0, kGop = 1 };
+  /// The numbers are those of the format.
+  enum class Kind : std::uint8_t {
+    kMesh = 1,
+    kPlan = 2,          ///< what several GOPs share
+    kGop = 3,           ///< decoding can begin at it
+    kDependentGop = 4,  ///< it needs GOPs before it; no mode makes one so far
+  };
 
-  Kind kind = Kind::kGop;
   std::uint64_t offset = 0;       ///< of the chunk's first byte, from the first byte of the stream
-  std::uint32_t frame_count = 0;  ///< frames of a GOP, 0 for a mesh
+  std::uint32_t frame_count = 0;  ///< frames of a GOP, 0 for others
+  std::uint32_t meshes_back = 0;  ///< of a GOP: its mesh is so many meshes back, 1 the last before it; else 0
+  Kind kind = Kind::kGop;
 
+  bool is_gop() const { return kind == Kind::kGop || kind == Kind::kDependentGop; }
   bool operator==(const IndexEntry&) const = default;
 };
 
@@ -180,6 +196,8 @@ struct DecoderLimits {
   std::uint32_t faces = 1u << 25;
   std::uint32_t frames_per_gop = 1u << 16;
   std::uint32_t packet_bytes = 1u << 29;
+  std::uint32_t meshes = kMaxMeshesInForce;
+  std::uint32_t mesh_bytes = 1u << 30;
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
 };
 

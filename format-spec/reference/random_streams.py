@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Random valid streams, by another writer than the encoder: what format-spec/tvg.md allows and the encoder never does.
+
+    python3 random_streams.py FOLDER SEED...
+
+writes the streams of the seeds to FOLDER/random_SEED.tvg. The same seed gives the same bytes everywhere.
+"""
+import os
+import sys
+
+import tvg_writer as writer
+from tvg_reference import ELP, SPACE, TIME, clamp
+from tvg_writer import Random, RandomConnectivity, Stream
+
+KINDS_UNKNOWN = (b"xtra", b"    ", b"~~~~", b"Gop ", b"HEA2")
+STEPS = (0.5, 1.0, 1 / 3, 2.0 ** -20, 1e-45, 3e38, 1e300)
+
+class Mesh:
+    """A random mesh: payload, id, and what frames need to know of it."""
+    def __init__(self, random):
+        extreme = random.below(8)
+        if extreme == 0:
+            V, F = 1, random.below(2)
+        elif extreme == 1:
+            V, F = random.between(129, 140), 0  # more than a byte of connectivity may stand for: padding
+        else:
+            V, F = random.between(3, 30), random.between(1, 40)
+        if F == 0 and V > 128:
+            connectivity, (_, self.gates) = writer.padded(V)
+        else:
+            coded = RandomConnectivity(V, F, random)
+            _, self.gates = coded.decode()
+            connectivity = coded.coder.data
+        sections = [(1, connectivity)]
+        order = random.below(4)
+        if order == 1:
+            sections.append((3, writer.identity_order()))
+        elif order == 2:
+            sections.append((3, writer.near_order(random.shuffled(range(V)), self.gates, random)))
+        elif order == 3:
+            sections.append((3, writer.uniform_order(random.shuffled(range(V)))))
+        sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 2, 4, 2 ** 40) if random.chance(15)]
+        self.V, self.F = V, F
+        self.payload = writer.mesh(V, F, sorted(sections))
+        self.id = writer.checksum(self.payload)
+
+class RandomStream:
+    """One stream. Chunks are planned first, since HEAD bounds them."""
+    def __init__(self, seed):
+        self.random = Random(seed)
+        self.meshes = [Mesh(self.random) for _ in range(self.random.between(1, 3))]
+        self.window = self.random.between(1, 3)
+        self.label = self.random.pick((0, 0, 17, 2 ** 62))
+
+    def write(self):
+        random, body = self.random, self.body()
+        gops = [payload for kind, payload, _ in body if kind == b"GOP "]
+        bounds = {
+            "vertices": max(mesh.V for mesh in self.meshes) + random.below(3),
+            "faces": max(mesh.F for mesh in self.meshes) + random.below(3),
+            "frames_per_gop": 4 + random.below(3),
+            "packet_bytes": max([200] + [len(payload) for payload in gops]),
+            "meshes": self.window,
+            "mesh_bytes": max(len(mesh.payload) for mesh in self.meshes) + random.below(3),
+        }
+        bounds["decoder_memory"] = writer.memory(**bounds) + random.pick((0, 0, 1, 10 ** 6))
+        others = {key: random.below(2 ** 63) for key in (0, 2, 8, 14, 1000) if random.chance(20)}
+        stream = Stream()
+        stream.add(b"HEAD", writer.head(others=others, **bounds))
+        for kind, payload, named in body:
+            if kind == b"GOP ":
+                stream.add_gop(payload, *named)
+            elif kind in (b"MESH", b"PLAN"):
+                stream.add_named(kind, payload)
+            else:
+                stream.add(kind, payload, None if kind in writer.ANCILLARY else 1)
+        for kind in (0, 5, 6, 2 ** 50):  # entries a reader does not know, for chunks it does or not
+            if random.chance(20):
+                place = random.below(len(stream.entries) + 1)
+                low = stream.entries[place - 1][1] if place > 0 else 0
+                high = stream.entries[place][1] if place < len(stream.entries) else len(stream.data)
+                if high > low + 1:
+                    stream.entries.insert(place, (kind, random.between(low + 1, high - 1), random.some_bytes(3)))
+        stream.add_indx()
+        self.unknown(stream)
+        stream.add_tail()
+        return bytes(stream.data)
+
+    def unknown(self, stream):
+        while self.random.chance(30):
+            stream.add(self.random.pick(KINDS_UNKNOWN), self.random.some_bytes(self.random.below(9)), 1)
+
+    def body(self):
+        """The chunks between HEAD and INDX: kind, payload, what a GOP's entry names."""
+        random, chunks, in_force = self.random, [], []
+
+        def asides():
+            while random.chance(30):
+                chunks.append(random.pick((self.meta, self.data, self.aside))() + (None,))
+
+        def show(mesh):
+            if mesh in in_force:
+                in_force.remove(mesh)
+            in_force.append(mesh)
+            del in_force[:-self.window]
+            chunks.append((b"MESH", mesh.payload, None))
+
+        for number in range(random.between(3, 6)):
+            asides()
+            if number == 0 or random.chance(60):
+                show(random.pick(self.meshes))
+            asides()
+            if random.chance(15):
+                chunks.append((b"PLAN", writer.plan(random.pick(in_force).id, random.below(3), random.between(1, 200),
+                                                    random.some_bytes(4)), None))
+            if random.chance(85):
+                mesh = random.pick(in_force)
+                payload, frame_count = self.gop(mesh)
+                chunks.append((b"GOP ", payload, (mesh.id, frame_count)))
+        asides()
+        return chunks
+
+    def meta(self):
+        keys = sorted({self.random.pick((b"name", b"fps", b"up", b"units", "größe".encode())) for _ in range(3)})
+        keys = keys[self.random.below(3):]
+        return b"META", writer.meta([(key, self.random.pick((b"", b"30", b"y"))) for key in keys])
+
+    def data(self):
+        random = self.random
+        name = random.pick((b"extras", b"materials.json", "\U0001F600".encode()))
+        content = random.some_bytes(random.below(9))
+        encoding = random.pick((0, 1, 1, 7))
+        if encoding == 0:
+            return b"DATA", writer.data(name, 0, len(content), content)
+        if encoding == 1:  # one block of one byte repeated, in a frame that says how often
+            size = random.between(20, 255)
+            block = (1 + 2 * 1 + 8 * size).to_bytes(3, "little") + random.some_bytes(1)
+            return b"DATA", writer.data(name, 1, size, bytes.fromhex("28B52FFD20") + bytes([size]) + block)
+        return b"DATA", writer.data(name, encoding, len(content) + random.below(99), content)
+
+    def aside(self):
+        return self.random.pick(KINDS_UNKNOWN), self.random.some_bytes(self.random.below(9))
+
+    def gop(self, mesh):
+        """A GOP of a mesh: payload and frame_count."""
+        random = self.random
+        fine_bits = random.pick((1, 4, 8, 12, 24))
+        coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
+        fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
+        channels = [1] + [channel for channel in (2, 6, 10 ** 6) if random.chance(15)]
+        spread, wild = random.pick((0, 1, 3, 40)), random.pick((0, 0, 2, 50))
+
+        def choose(_, axis, prediction, cells):
+            if random.chance(wild):
+                return random.pick((0, cells - 1, random.below(cells)))
+            return clamp(prediction + random.between(-spread, spread) - axis, 0, cells - 1)
+
+        frames, packets = writer.FrameWriter(mesh.gates, fine, fine_bits, coarse_bits, choose), []
+        frame_count = random.between(1, 4)
+        for number in range(frame_count):
+            self.ancillary(packets)
+            predictor = SPACE if number == 0 else random.pick((SPACE, TIME, ELP, ELP))
+            pieces = [frames.write(predictor)] + [random.some_bytes(random.below(4)) for _ in channels[1:]]
+            packets.append((32 + predictor, b"".join(map(writer.sized, pieces[:-1])) + pieces[-1]))
+        self.ancillary(packets)
+        digests = [(channel, frames.digest() if channel == 1 else random.below(2 ** 64)) for channel in channels]
+        packets.append((1, writer.digest(digests)))
+        self.ancillary(packets)
+        origin = [random.pick((0.0, -1.0, 1e-3, 123.456, -1e30)) for _ in range(3)]
+        flags = writer.flags(fine, mesh.gates) if coarse_bits < fine_bits else b""
+        fields = writer.elp_fields(fine_bits, coarse_bits, origin, random.pick(STEPS), flags, channels)
+        header = writer.gop_header(mesh.id, self.label, frame_count, len(packets), fields=fields)
+        if self.label < 2 ** 62:
+            self.label += frame_count + random.pick((0, 0, 0, 5))
+        return writer.gop([(0, header)] + packets), frame_count
+
+    def ancillary(self, packets):
+        while self.random.chance(20):
+            packets.append((self.random.between(128, 255), self.random.some_bytes(self.random.below(5))))
+
+def main(arguments):
+    if len(arguments) < 2 or not all(argument.isdecimal() for argument in arguments[1:]):
+        print("usage: random_streams.py FOLDER SEED...", file=sys.stderr)
+        return 2
+    for seed in arguments[1:]:
+        with open(os.path.join(arguments[0], f"random_{seed}.tvg"), "wb") as file:
+            file.write(RandomStream(int(seed)).write())
+    return 0
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,356 @@
+"""Writes TVG streams, from format-spec/tvg.md alone: what random_streams.py and negative_streams.py stand on.
+
+Chunks, packets and payloads are made from their fields, whether they are valid or not. Range-coder streams are written
+by the reference decoder's own code: it asks a coder for symbols and bits, and a RangeEncoder answers with what it was
+told to say and writes it down.
+"""
+import struct
+from bisect import bisect_left
+from collections import deque
+
+import tvg_reference as reference
+from tvg_reference import ANCILLARY, NONE, SIGNATURE, checksum, xxh64
+
+class Random:
+    """The same numbers from the same seed everywhere: splitmix64."""
+    def __init__(self, seed):
+        self.state = seed
+
+    def below(self, bound):
+        self.state = self.state + 0x9E3779B97F4A7C15 & reference.MASK
+        z = (self.state ^ self.state >> 30) * 0xBF58476D1CE4E5B9 & reference.MASK
+        z = (z ^ z >> 27) * 0x94D049BB133111EB & reference.MASK
+        return (z ^ z >> 31) % bound
+
+    def between(self, low, high):
+        return low + self.below(high - low + 1)
+
+    def chance(self, percent):
+        return self.below(100) < percent
+
+    def pick(self, values):
+        return values[self.below(len(values))]
+
+    def shuffled(self, values):
+        values = list(values)
+        for i in range(len(values) - 1, 0, -1):
+            j = self.below(i + 1)
+            values[i], values[j] = values[j], values[i]
+        return values
+
+    def some_bytes(self, size):
+        return bytes(self.below(256) for _ in range(size))
+
+# 2.2 Varint
+def varint(value):
+    data = b""
+    while value >= 0x80:
+        data += bytes([value & 0x7F | 0x80])
+        value >>= 7
+    return data + bytes([value])
+
+def sized(data):
+    return varint(len(data)) + data
+
+# 3.2 Chunks
+def chunk_header(kind, length, flags=None):
+    header = kind + struct.pack("<2I", ANCILLARY[kind] if flags is None else flags, length)
+    return header + struct.pack("<I", checksum(header))
+
+def chunk(kind, payload, flags=None):
+    return chunk_header(kind, len(payload), flags) + payload + struct.pack("<I", checksum(payload))
+
+# 4.1 HEAD
+KEYS = {"vertices": 1, "faces": 3, "frames_per_gop": 5, "packet_bytes": 7, "decoder_memory": 9, "meshes": 11,
+        "mesh_bytes": 13}
+
+def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, **_):
+    """8.2 Memory."""
+    return (2 ** 20 + 160 * vertices + 96 * faces + 4 * packet_bytes + mesh_bytes
+            + (meshes - 1) * (512 + 24 * vertices + 16 * faces))
+
+def head(version=(0, 2), others=None, **bounds):
+    """others: values of keys that have no name. A bound that is None is left out."""
+    pairs = {KEYS[name]: value for name, value in bounds.items() if value is not None} | (others or {})
+    return struct.pack("<2H", *version) + b"".join(varint(key) + varint(pairs[key]) for key in sorted(pairs))
+
+# 4.2 META
+def meta(entries):
+    return varint(len(entries)) + b"".join(sized(key) + sized(value) for key, value in entries)
+
+# 4.3 MESH
+def mesh(V, F, sections):
+    """sections: pairs of kind and content."""
+    return varint(V) + varint(F) + b"".join(varint(kind) + sized(content) for kind, content in sections)
+
+# 4.5 GOP
+def packet(kind, content, seed=0):
+    covered = bytes([kind]) + sized(content)
+    return covered + struct.pack("<I", checksum(covered, seed))
+
+def gop(packets):
+    """A payload of packets: pairs of kind and content, the header first."""
+    payload = packet(*packets[0])
+    seed = int.from_bytes(payload[-4:], "little") * 2 ** 32
+    return payload + b"".join(packet(kind, content, seed + k) for k, (kind, content) in enumerate(packets[1:], 1))
+
+def gop_header(mesh_id, first_frame, frame_count, packet_count, planes=(), mode=0, fields=b""):
+    """4.5.1 The header packet."""
+    counts = varint(first_frame) + varint(frame_count) + varint(packet_count) + varint(len(planes))
+    return struct.pack(f"<I{len(counts)}s{len(planes)}I", mesh_id, counts, *planes) + varint(mode) + fields
+
+def elp_fields(fine_bits, coarse_bits, origin, step, flags=b"", channels=(1,)):
+    return (varint(len(channels)) + b"".join(map(varint, channels)) + bytes([fine_bits, coarse_bits])
+            + struct.pack("<4d", *origin, step) + flags)
+
+def digest(values):
+    """4.5.3 The digest packet. values: the digest of each channel."""
+    return b"".join(varint(channel) + struct.pack("<Q", value) for channel, value in values)
+
+# 4.6 INDX
+def indx(entries):
+    """entries: kind, offset of the chunk, fields."""
+    payload, last = varint(len(entries)), 0
+    for kind, offset, fields in entries:
+        payload += varint(kind) + varint(offset - last) + sized(fields)
+        last = offset
+    return payload
+
+# 4.8 DATA
+def data(name, encoding, decoded_size, content):
+    return sized(name) + bytes([encoding]) + varint(decoded_size) + content
+
+# 4.9 PLAN
+def plan(mesh_id, adds_to, mode, fields=b""):
+    return struct.pack("<I", mesh_id) + varint(adds_to) + varint(mode) + fields
+
+class Stream:
+    """Puts chunks one behind the other and keeps what INDX holds of them (4.6)."""
+    def __init__(self):
+        self.data, self.entries, self.index_at = bytearray(SIGNATURE), [], None
+        self.latest = {1: [], 2: []}  # ids of meshes and planes, in the order of their entries
+
+    def add(self, kind, payload, flags=None):
+        """Adds a chunk that needs no entry. Returns its id."""
+        self.data += chunk(kind, payload, flags)
+        return checksum(payload)
+
+    def add_named(self, kind, payload):
+        """Adds a mesh or a plan. Returns its id."""
+        entry = {b"MESH": 1, b"PLAN": 2}[kind]
+        self.entries.append((entry, len(self.data), b""))
+        self.latest[entry].append(checksum(payload))
+        return self.add(kind, payload)
+
+    def back(self, entry, identity):
+        """How many entries to go back to the latest of an id; 1 where there is none."""
+        latest = self.latest[entry][::-1]
+        return latest.index(identity) + 1 if identity in latest else 1
+
+    def add_gop(self, payload, mesh_id, frame_count, planes=()):
+        backs = [self.back(2, plane) for plane in planes]
+        fields = (frame_count, self.back(1, mesh_id), len(planes), *backs)
+        self.entries.append((3, len(self.data), b"".join(map(varint, fields))))
+        self.add(b"GOP ", payload)
+
+    def add_indx(self, payload=None):
+        self.index_at = len(self.data)
+        self.add(b"INDX", indx(self.entries) if payload is None else payload)
+
+    def add_tail(self):
+        self.add(b"TAIL", struct.pack("<Q", len(self.data) - (self.index_at or 0)))
+
+# 6.1 The range coder
+class RangeEncoder:
+    """Answers as a RangeDecoder would, with the values of the queue, and writes them down."""
+    def __init__(self):
+        self.queue, self.low, self.range, self.shifted, self.data = deque(), 0, 2 ** 32 - 1, 0, b""
+
+    def say(self, *values):
+        self.queue.extend(values)
+
+    def interval(self, low, frequency):
+        unit = self.range >> 15
+        self.low += unit * low
+        self.range = unit * frequency
+        while self.range < 2 ** 31:
+            self.range *= 2
+            self.low *= 2
+            self.shifted += 1
+
+    def symbol(self, a, b=None):
+        s = self.queue.popleft()
+        cumulative = [((x + y + 1) >> 1) + 4 * i for i, (x, y) in enumerate(zip(a.c, (b or a).c))] + [2 ** 15]
+        self.interval(cumulative[s], cumulative[s + 1] - cumulative[s])
+        for model in {a, b or a}:
+            model.adapt(s)
+        return s
+
+    def bit(self, model):
+        value, zero = self.queue.popleft(), model.zero()
+        self.interval(*((zero, 2 ** 15 - zero) if value else (0, zero)))
+        model.adapt(value)
+        return value
+
+    def raw(self, k):
+        value = self.queue.popleft()
+        self.interval(value << (15 - k), 1 << (15 - k))
+        return value
+
+    def bits(self, k):
+        value, left = self.queue.popleft(), k
+        while left > 0:
+            m = min(left, 15)
+            left -= m
+            self.interval((value >> left) % 2 ** m << (15 - m), 1 << (15 - m))
+        return value
+
+    def finish(self):
+        """Settles the final interval by one bit more: the shortest stream that leads into it."""
+        assert not self.queue
+        length = (self.shifted + 8) // 8
+        settled = -(-self.low // 2 ** 31)  # the bits above the last 31, rounded up
+        self.data = (settled << 8 * length - self.shifted - 1).to_bytes(length, "big")
+
+# 5.1 Connectivity
+class RandomConnectivity(reference.Connectivity):
+    """Chooses a valid mesh at random and writes it; its bytes are in coder.data after decode()."""
+    def __init__(self, V, F, random):
+        super().__init__(RangeEncoder(), V, F)
+        self.random = random
+
+    def root(self):
+        seen = len(self.gates)
+        for _ in range(3):
+            known = seen > 0 and (seen == self.V or self.random.chance(15))
+            if seen > 0:
+                self.coder.say(int(known))
+            if known:
+                self.coder.say(self.random.below(seen))
+            seen += not known
+        super().root()
+
+    def step(self, e):
+        a, b, seen = e.start, e.to, len(self.gates)
+        before, after = e.previous.start, e.next.to
+        previous = reference.meets_previous(e) and before not in (a, b)
+        following = reference.meets_next(e) and after not in (a, b)
+        choices = [5] + [0] * 6 * (seen < self.V) + [1] * 2 * previous + [2] * 2 * following
+        choices += [3] * 4 * (previous and following and before == after) + [4] * (seen > 2)
+        operation = self.random.pick(choices)
+        self.coder.say(operation)
+        if operation == 4:
+            self.choose_reference(e)
+        super().step(e)
+
+    def choose_reference(self, e):
+        """A vertex other than those of the edge, by its first candidate or by its number."""
+        v = self.random.pick([v for v in range(len(self.gates)) if v not in (e.start, e.to)])
+        x, y, candidates = e, e, []
+        for _ in range(7):
+            x, y = x.next, y.previous
+            candidates += [x.to, y.start]
+        self.coder.say(*([candidates.index(v)] if v in candidates else [14, v]))
+
+    def padding(self):
+        self.coder.say(0)
+        super().padding()
+
+def padded(V):
+    """The connectivity of V vertices and no faces, with padding (5.1.6)."""
+    coder = RangeEncoder()
+    coder.say(1, 0)
+    faces_and_gates = reference.Connectivity(coder, V, 0).decode()
+    return coder.data, faces_and_gates
+
+# 5.2 Vertex order
+def identity_order():
+    return b"\0"
+
+def say_number(coder, d):
+    """number() of 5.2.1."""
+    k = d.bit_length()
+    coder.say(min(k, 15))
+    if k >= 15:
+        coder.say(k - 15)
+    if k > 1:
+        coder.say(d - 2 ** (k - 1))
+
+def near_order(order, gates, random):
+    """5.2.1 Near. Which rank an index is near to is chosen at random."""
+    coder, unused = RangeEncoder(), list(range(len(order)))
+
+    def rank(v):
+        return bisect_left(unused, order[v]) if v != NONE else 0
+
+    for i, (n, p, o) in enumerate(gates):
+        around = max(0, min(order[n] + order[p] - order[o], len(order))) if o != NONE else 0
+        ranks = [rank(i - 1 if i > 0 else NONE), rank(n), rank(p), rank(o), bisect_left(unused, around)]
+        choice, target = random.below(5), bisect_left(unused, order[i])
+        distance = target - ranks[choice]
+        coder.say(choice, int(distance < 0))
+        say_number(coder, distance if distance >= 0 else -distance - 1)
+        del unused[target]
+        # The reference reads it in step, so that its models adapt.
+    assert reference.near_order(coder, gates, list(range(len(order)))) == list(order)
+    coder.finish()
+    return b"\1" + coder.data
+
+def uniform_order(order):
+    """5.2.2 Uniform."""
+    coder, unused = RangeEncoder(), list(range(len(order)))
+    for index in order:
+        rank, bound = bisect_left(unused, index), len(unused)
+        k = bound.bit_length() - 1
+        u = 2 ** (k + 1) - bound
+        coder.say(*([rank] if rank < u else [rank + u >> 1, rank + u & 1]))
+        unused.remove(index)
+    assert reference.uniform_order(coder, order, list(range(len(order)))) == list(order)
+    coder.finish()
+    return b"\2" + coder.data
+
+# 7.4 Flags
+def flags(fine, gates):
+    coder = RangeEncoder()
+    coder.say(*fine)
+    reference.flag_bits(coder, gates)
+    coder.finish()
+    return coder.data
+
+# 7. Frames
+def say_residual(coder, value, level):
+    """7.3.2 The value."""
+    k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
+    high = value >> k
+    if -7 <= high <= 7:
+        coder.say(high + 7)
+    else:
+        rest = abs(high) - 7
+        length = rest.bit_length() - 1
+        coder.say(15, int(high < 0), *[1] * length, *[0] * (length < 27), rest - 2 ** length)
+    if k > 0:
+        coder.say(value - (high << k))
+
+class FrameWriter(reference.Frames):
+    """Writes frames whose indices are chosen by a function of vertex, axis, prediction and number of cells."""
+    def __init__(self, gates, fine, fine_bits, coarse_bits, choose):
+        super().__init__(gates, fine, fine_bits, coarse_bits)
+        self.choose, self.hashed = choose, b""
+
+    def predict(self, v, axis):
+        found = super().predict(v, axis)
+        cells = 2 ** (self.B2 - self.shift[v])
+        level = sum(found[2] >= threshold for threshold in reference.THRESHOLDS)
+        say_residual(self.coder, self.choose(v, axis, found[0], cells) - found[0], level)
+        return found
+
+    def write(self, predictor):
+        """Returns the range-coder stream of the next frame (7.5)."""
+        self.coder = RangeEncoder()
+        self.frame(self.coder, predictor)
+        self.hashed += b"".join(struct.pack("<3i", *index) for index in self.X)
+        return self.coder.data
+
+    def digest(self):
+        """7.6 The digest."""
+        return xxh64(self.hashed)

@@ -1,0 +1,160 @@
+#include "base/allocation.hpp"
+#include "base/stream_error.hpp"
+#include "container/chunk_reader.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+// The packets of a GOP, one by one (format-spec §4.5).
+namespace tvg {
+
+/// Room for any packet of a mesh in force, so that frames do not allocate.
+bool ChunkReader::reserve_for_packets() {
+  constexpr std::uint64_t kAnyHeader = 4096;
+  constexpr std::uint64_t kBytesPerVertex = 16;
+  std::uint64_t vertices = 0;
+  for (const auto& mesh : meshes_.entries())
+    vertices = std::max<std::uint64_t>(vertices, mesh.value.vertex_count);
+  return try_reserve(buffer_, static_cast<std::size_t>(std::min<std::uint64_t>(
+                                  chunk_.length, kAnyHeader + kBytesPerVertex * vertices)));
+}
+
+std::optional<ChunkReader::Event> ChunkReader::next_packet() {
+  const bool header_read = packet_number_ > 0;
+  if (header_read && packet_number_ > gop_.packet_count) return end_packets();
+  const std::uint64_t seed = header_read ? packet_seed(header_checksum_, packet_number_) : 0;
+  const PacketRead packet = read_packet(available(), payload_left_, seed, head_.limits.packet_bytes);
+  switch (packet.state) {
+    case PacketRead::State::kIncomplete:
+      return need_bytes();
+    case PacketRead::State::kBeyond:
+      return lose(malformed("§4.5", "the GOP ends before its packets do"), 1);
+    case PacketRead::State::kTooLarge:
+      return lose(
+          stream_error(ErrorCode::kLimitExceeded, "§4.1", {"a packet is larger than the head declares"}), 1);
+    case PacketRead::State::kDamaged:
+      return lose_unproven(stream_error(ErrorCode::kChecksumMismatch, "§4.5", {"a packet is damaged"}),
+                           packet.total);
+    case PacketRead::State::kWhole:
+      break;
+  }
+  used_ = packet.total;
+  content_ = packet.content;
+  payload_hash_.update(raw());
+  payload_left_ -= packet.total;
+  return use_packet(packet);
+}
+
+ChunkReader::Event ChunkReader::use_packet(const PacketRead& packet) {
+  namespace kind = packet_kind;
+  if (packet_number_ == 0) {
+    header_checksum_ = packet.checksum;
+    return packet.kind == kind::kHeader ? use_gop_header()
+                                        : misplaced("a GOP does not begin with its header");
+  }
+  ++packet_number_;
+  if (packet.kind >= kind::kAncillary) return Event::kPacket;
+  if (packet.kind == kind::kHeader) return misplaced("a GOP has a second header");
+  if (packet.kind == kind::kDigest) {
+    if (digest_met_) return misplaced("a GOP has a second digest");
+    if (frames_met_ < gop_.frame_count) return misplaced("the digest of a GOP comes before its last frame");
+    digest_met_ = true;
+    return Event::kDigest;
+  }
+  if (!kind::is_frame(packet.kind)) {
+    Error error = stream_error(ErrorCode::kUnsupported, "§4.5",
+                               {"the GOP needs a decoder that knows packets of kind ",
+                                std::to_string(static_cast<int>(packet.kind))});
+    const Event event = report(std::move(error));
+    problem_.loses = frames_met_ < gop_.frame_count;
+    phase_ = Phase::kPassOver;
+    return event;
+  }
+  if (frames_met_ == gop_.frame_count) return misplaced("a GOP has more frames than its header says");
+  ++frames_met_;
+  predictor_ = static_cast<Predictor>(packet.kind - kind::kFrame);
+  return Event::kFrame;
+}
+
+/// A packet stands where it may not: the frames before it are in doubt, too.
+ChunkReader::Event ChunkReader::misplaced(const char* sentence) {
+  const bool header_read = packet_number_ > 0;
+  const Event event = lose(malformed("§4.5", sentence), used_);
+  problem_.doubts = problem_.loses && header_read;
+  return event;
+}
+
+// format-spec §4.5.1
+ChunkReader::Event ChunkReader::use_gop_header() {
+  Result<GopHeader> header = read_gop_header(content_);
+  Status status = header ? check_gop_size(*header, head_.limits) : Status(std::move(header.error()));
+  if (!status.ok()) return lose(status.error(), used_);
+  gop_ = *header;
+  const auto* const mesh = meshes_.find(gop_.mesh);
+  if (mesh == nullptr) {
+    return lose_gop(
+        malformed(state_ == StreamState::kOpen ? "§3.4" : "§4.5.1", "the mesh of a GOP is not in force"));
+  }
+  PlaneNumbers planes{};
+  if (!find_planes(planes)) return lose_gop(malformed("§4.5.1", "planes of a GOP are not in force"));
+  expected_index_.add({.offset = chunk_offset_,
+                       .frame_count = gop_.frame_count,
+                       .meshes_back = static_cast<std::uint32_t>(meshes_.back(*mesh)),
+                       .kind = IndexEntry::Kind::kGop},
+                      PlanesBack(planes).first(gop_.plane_count()));
+  if (mesh->value.fault == ErrorCode::kUnsupported) {
+    return lose_gop(stream_error(ErrorCode::kUnsupported, "§4.3",
+                                 {"the mesh of a GOP needs a decoder that knows all of its sections"}));
+  }
+  if (mesh->value.fault)
+    return lose_gop(stream_error(*mesh->value.fault, "§4.3", {"the mesh of a GOP cannot be used"}));
+  if (gop_.mode != kModeElp) {
+    return lose_gop(stream_error(ErrorCode::kUnsupported, "§4.5.1",
+                                 {"the GOP needs a decoder that knows mode ", std::to_string(gop_.mode)}));
+  }
+  gop_mesh_offset_ = mesh->offset;
+  packet_number_ = 1;
+  frames_met_ = 0;
+  return Event::kGop;
+}
+
+/// The GOP whose header was just read cannot be decoded.
+// format-spec §8.3
+ChunkReader::Event ChunkReader::lose_gop(Error error) {
+  if (error.code == ErrorCode::kOutOfMemory) return fail(std::move(error));
+  const bool unsupported = error.code == ErrorCode::kUnsupported;
+  error.byte_offset = chunk_offset_;
+  problem_ = {std::move(error), true, !unsupported, false};
+  if (unsupported) {
+    phase_ = Phase::kPassOver;
+  } else {
+    begin_search(used_);
+  }
+  return Event::kGopLost;
+}
+
+/// So many packets were read as the header of the GOP says.
+std::optional<ChunkReader::Event> ChunkReader::end_packets() {
+  if (!digest_met_) {
+    Event event = lose(malformed("§4.5", "a GOP has no digest"), 0);
+    problem_.doubts = problem_.loses;
+    return event;
+  }
+  if (payload_left_ > 0) return lose(malformed("§4.5", "bytes follow the packets of a GOP"), 0);
+  phase_ = Phase::kGopChecksum;
+  return std::nullopt;
+}
+
+// format-spec §3.3
+std::optional<ChunkReader::Event> ChunkReader::end_gop() {
+  if (available().size() < kChunkChecksumSize) return need_bytes();
+  const std::uint32_t expected = ByteReader(available()).u32();
+  phase_ = Phase::kChunkHeader;
+  used_ = kChunkChecksumSize;
+  if (expected == static_cast<std::uint32_t>(payload_hash_.value())) return Event::kGopEnd;
+  return report(stream_error(ErrorCode::kChecksumMismatch, "§3.3",
+                             {"the checksum of a GOP is damaged, its frames are not"}));
+}
+
+}  // namespace tvg

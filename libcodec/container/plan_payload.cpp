@@ -1,0 +1,20 @@
+#include "container/plan_payload.hpp"
+
+#include "base/stream_error.hpp"
+#include "container/gop_header.hpp"
+
+namespace tvg {
+
+// format-spec §4.9
+Result<PlanHeader> read_plan_header(Bytes payload) {
+  ByteReader reader(payload);
+  PlanHeader plan;
+  plan.mesh = reader.u32();
+  plan.adds_to = reader.varint();
+  plan.mode = reader.varint();
+  if (!reader.ok()) return malformed("§4.9", "the chunk of planes is too short");
+  if (plan.mode == kModeElp) return malformed("§4.9", "GOPs in mode elp share no planes");
+  return plan;
+}
+
+}  // namespace tvg
