@@ -57,8 +57,9 @@ class AdaptiveSymbol {
   }
 
   /// Starts with a given distribution: weights add up to at most 0xFFFF; what is missing goes to the last
-  /// symbol.
-  explicit AdaptiveSymbol(const std::array<std::uint16_t, kMaxSymbols>& weights) {
+  /// symbol. It learns on as if it had seen so many symbols.
+  explicit AdaptiveSymbol(const std::array<std::uint16_t, kMaxSymbols>& weights, std::uint8_t seen = 0)
+      : count_(seen) {
     std::int32_t sum = 0;
     for (std::size_t i = 0; i < kMaxSymbols; ++i) {
       cumulative_[i] = static_cast<std::int16_t>(sum * kScale / 0xFFFF);
