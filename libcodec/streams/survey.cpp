@@ -89,13 +89,14 @@ class Surveyor {
 
   void take_gop() {
     const GopHeader& header = reader_.gop();
-    const Result<ElpHeader> elp = read_elp_header(header);
+    ElpHeader elp;
+    const Status status = read_elp_header(header, elp);
     frames_ += header.frame_count;
-    if (!elp) {
-      find(elp.error());
+    if (!status.ok()) {
+      find(status.error());
       return;
     }
-    GopInfo gop = gop_info(header, *elp);
+    GopInfo gop = gop_info(header, elp);
     gop.first_frame = frames_ - header.frame_count;
     gop.bytes = reader_.chunk().total_size();
     gop.header_bytes = reader_.content().size() - gop.flag_bytes;
