@@ -13,6 +13,7 @@ namespace tvg::cli {
 struct PlayerGop {
   GopInfo info;
   std::vector<std::uint8_t> flags;  ///< [vertex]: 1 for an important one
+  bool keeps_vertex_order = true;   ///< vertices come in the order of the sequence that was encoded
 };
 
 /// A frame ready to be drawn. Frames are recycled: one is never changed while somebody holds it.

@@ -1,8 +1,8 @@
 #include "player/render/measure_picture.hpp"
 
+#include "player/overlay/overlay_values.hpp"
 #include "player/render/picture.hpp"
 #include "player/view/image.hpp"
-#include "player/view/overlay.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -46,7 +46,8 @@ void draw_measure_picture(const std::string& path, const FrameSource& source, co
   painter.set_scene(bounds, up, camera);
 
   const ValueRange range = cost_range(frame.cost);
-  ShownFrame shown{frame.number, 0, std::make_shared<const Mesh>(source.mesh()), frame.positions, frame.cost};
+  ShownFrame shown{frame.number,    0,  std::make_shared<const Mesh>(source.mesh()),
+                   frame.positions, {}, frame.cost};
   painter.begin();
   scale_values(shown.values, range);
   painter.draw(shown, PicturePainter::Which::kShown, ColourMap::kViridis, cells[0]);

@@ -1,5 +1,5 @@
 #pragma once
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "player/view/framebuffer.hpp"
 #include "player/view/joint_overlay.hpp"
 #include "player/view/mesh_renderer.hpp"

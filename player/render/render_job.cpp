@@ -62,7 +62,6 @@ class RenderJob {
   void survey_frame() {
     bounds_.extend(frames_.frame().positions);
     if (options_.side_by_side) bounds_.extend(frames_.reference().positions);
-    frames_.measure();
   }
 
   /// Once the camera knows what it looks at: after the survey, or at the first frame of a pipe.
@@ -71,7 +70,7 @@ class RenderJob {
       survey_frame();
       bounds_.pad(0.24 * view_radius(bounds_));
     }
-    frames_.set_scale(surveyed_);
+    frames_.keep_scale(surveyed_);
     OrbitCamera camera;
     camera.set_angles(options_.angles);
     const UpAxis up_axis = up_axis_of(frames_.metadata());

@@ -26,13 +26,23 @@ void PlaySession::open(const std::string& location) {
 
 void PlaySession::set_overlay(Overlay overlay) {
   try {
-    decorator_ = make_overlay_decorator(overlay, options_.reference, options_.open_source);
+    decorator_ = make_decorator(overlay);
   } catch (const ToolError& error) {
     notify(error.what());
     return;
   }
   view_.overlay = overlay;
   if (player_) player_->set_decorator(decorator_, watch_.now());
+}
+
+std::shared_ptr<OverlayDecorator> PlaySession::make_decorator(Overlay overlay) const {
+  if (overlay == Overlay::kNone) return nullptr;
+  OverlaySpec spec{overlay, {}, nullptr};
+  if (overlay == Overlay::kError) {
+    spec.reference = std::make_shared<ReferenceFrames>(
+        ShownFramesSpec{options_.reference, {}, false, false, false, options_.open_source}, name_);
+  }
+  return std::make_shared<OverlayDecorator>(spec);
 }
 
 void PlaySession::next_overlay() {

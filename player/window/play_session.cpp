@@ -1,5 +1,6 @@
 #include "player/window/play_session.hpp"
 
+#include "player/overlay/overlay_values.hpp"
 #include "player/view/image.hpp"
 #include "player/window/window_picture.hpp"
 #include "tool/atomic_file.hpp"
@@ -88,8 +89,7 @@ void PlaySession::show(std::shared_ptr<const PlayerFrame> frame) {
     renderer_.set_mesh(*mesh_);
     fit_view();
   }
-  const ColourMap map = view_.overlay == Overlay::kImportance ? ColourMap::kFlags : ColourMap::kViridis;
-  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, map);
+  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, colour_map_of(view_.overlay));
 }
 
 void PlaySession::fit_view() {
@@ -131,7 +131,10 @@ InterfaceFacts PlaySession::facts(double now) const {
   InterfaceFacts facts;
   facts.name = std::filesystem::path(name_).filename().string();
   facts.notice = notice_;
-  if (decorator_ != nullptr) facts.legend = decorator_->legend();
+  if (decorator_ != nullptr) {
+    facts.legend = decorator_->legend();
+    if (view_.overlay == Overlay::kError) facts.legend->units = short_units(snapshot_.stream.metadata);
+  }
   facts.draw_ms = figures_.mean_draw_ms();
   facts.shown_per_second = figures_.shown_per_second(now);
   facts.has_reference = !options_.reference.empty();

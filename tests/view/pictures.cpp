@@ -1,8 +1,8 @@
 #include "tests/view/pictures.hpp"
 
 #include "corpus/corpus.hpp"
+#include "player/overlay/overlay_values.hpp"
 #include "player/render/sheet.hpp"
-#include "player/view/overlay.hpp"
 #include "tests/view/view_toolbox.hpp"
 
 #include <array>

@@ -1,12 +1,14 @@
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 
 #include "corpus/corpus.hpp"
 #include "corpus/write_cache.hpp"
 #include "encoder/importers/open_source.hpp"
-#include "player/view/overlay.hpp"
+#include "player/overlay/overlay_values.hpp"
+#include "player/render/whole_gops.hpp"
 #include "tests/importers/io_toolbox.hpp"
 #include "tool/tool_error.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <tvg/encoder.hpp>
@@ -15,6 +17,7 @@ namespace tvg::cli {
 namespace {
 
 constexpr std::uint32_t kGop = 5;
+constexpr float kLargest = 0.25F;
 
 /// The same sequence as a stream and as mesh and cache.
 class Shown : public ::testing::Test {
@@ -95,17 +98,23 @@ TEST_F(Shown, CostIsThatOfTheWholeGopWhateverTheRange) {
   spec.whole_gops = true;
   for (const FrameRange range : {FrameRange{0, 11}, FrameRange{7, 7}, FrameRange{3, 6}, FrameRange{10, 11}}) {
     spec.frames = range;
-    const std::vector<ShownFrame> frames = all(*with_cost(open_frames(spec), range));
-    ASSERT_EQ(frames.size(), range.last - range.first + 1);
-    for (const ShownFrame& frame : frames) {
+    const auto colours = make_overlay_colours({Overlay::kCost, kLargest, nullptr});
+    const auto frames = with_whole_gops(open_frames(spec), range, *colours);
+    std::uint64_t number = range.first;
+    for (ShownFrame frame; frames->next(frame); ++number) {
+      EXPECT_EQ(frame.number, number);
       const std::size_t begin = frame.number / kGop * kGop;
       std::vector<FramePositions> gop;
       for (std::size_t f = begin; f < std::min<std::size_t>(begin + kGop, 12); ++f) {
         gop.push_back(plain[f].positions);
       }
       EXPECT_EQ(frame.positions, plain[frame.number].positions);
-      EXPECT_EQ(frame.values, cost_values(hand_.mesh, gop)) << frame.number;
+      colours->colour({frame.number, *frame.mesh, frame.positions, {}}, frame.values);
+      std::vector<float> expected = cost_values(hand_.mesh, gop);
+      scale_values(expected, {0, kLargest});
+      EXPECT_EQ(frame.values, expected) << frame.number;
     }
+    EXPECT_EQ(number, range.last + 1);
   }
 }
 
@@ -113,9 +122,9 @@ TEST_F(Shown, FlagsAreThoseOfTheGop) {
   ShownFramesSpec spec = stream();
   spec.flags = true;
   for (const ShownFrame& frame : all(*open_frames(spec))) {
-    float flagged = 0;
-    for (const float value : frame.values) flagged += value;
-    EXPECT_NEAR(flagged / static_cast<float>(frame.values.size()), 0.35, 0.01);
+    ASSERT_NE(frame.flags, nullptr);
+    const auto flagged = std::count(frame.flags->begin(), frame.flags->end(), 1);
+    EXPECT_NEAR(static_cast<double>(flagged) / static_cast<double>(frame.flags->size()), 0.35, 0.01);
   }
   spec.inputs = files().inputs;
   EXPECT_THROW(open_frames(spec), ToolError);

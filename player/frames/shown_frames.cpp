@@ -1,4 +1,4 @@
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"

@@ -1,5 +1,5 @@
-#include "player/render/shown_frames.hpp"
-#include "player/view/overlay.hpp"
+#include "player/render/whole_gops.hpp"
+
 #include "tool/tool_error.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +11,10 @@ namespace {
 
 constexpr std::uint64_t kMostGopBytes = std::uint64_t{4} << 30;
 
-class CostFrames final : public ShownFrames {
+class WholeGops final : public ShownFrames {
  public:
-  CostFrames(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted)
-      : gops_(std::move(gops)), wanted_(wanted) {}
+  WholeGops(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted, OverlayColours& colours)
+      : gops_(std::move(gops)), wanted_(wanted), colours_(colours) {}
 
   bool next(ShownFrame& frame) override {
     for (;;) {
@@ -26,7 +26,6 @@ class CostFrames final : public ShownFrames {
       frame.number = number;
       frame.gop = gop_;
       frame.mesh = mesh_;
-      frame.values = values_;
       return true;
     }
   }
@@ -72,15 +71,15 @@ class CostFrames final : public ShownFrames {
         break;
       }
     }
-    values_ = cost_values(*mesh_, positions_);
+    colours_.begin_gop({first_, positions_.size(), positions_});
     return true;
   }
 
   std::unique_ptr<ShownFrames> gops_;
   std::optional<FrameRange> wanted_;
+  OverlayColours& colours_;
   std::optional<ShownFrame> ahead_;        // without a mesh: the end is reached
   std::vector<FramePositions> positions_;  // of the GOP, [frame][vertex][xyz]
-  std::vector<float> values_;
   std::shared_ptr<const Mesh> mesh_;
   std::uint64_t first_ = 0;
   std::uint64_t gop_ = 0;
@@ -89,8 +88,9 @@ class CostFrames final : public ShownFrames {
 
 }  // namespace
 
-std::unique_ptr<ShownFrames> with_cost(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted) {
-  return std::make_unique<CostFrames>(std::move(gops), wanted);
+std::unique_ptr<ShownFrames> with_whole_gops(std::unique_ptr<ShownFrames> gops,
+                                             std::optional<FrameRange> wanted, OverlayColours& colours) {
+  return std::make_unique<WholeGops>(std::move(gops), wanted, colours);
 }
 
 }  // namespace tvg::cli

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <tvg/source.hpp>
@@ -24,5 +25,8 @@ std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions>
 /// Distance of each vertex of a frame from where a reference has it, in the units of the positions.
 /// `frame` and `reference`: [vertex][xyz] of one length; `values`: [vertex].
 void error_values(std::span<const float> frame, std::span<const float> reference, std::span<float> values);
+
+/// The units of positions as metadata have them; empty where they say none, or too much for a legend.
+std::string short_units(const Metadata& metadata);
 
 }  // namespace tvg::cli

@@ -15,11 +15,12 @@ namespace tvg::cli {
 
 /// A frame to be drawn, with all that belongs to it.
 struct ShownFrame {
-  std::uint64_t number = 0;          ///< in its sequence, counted from 0
-  std::uint64_t gop = 0;             ///< equal for frames that are coded together
-  std::shared_ptr<const Mesh> mesh;  ///< the same object as long as the mesh stays
-  FramePositions positions;          ///< [vertex][xyz]
-  std::vector<float> values;         ///< [vertex], of an overlay in its own units; empty without one
+  std::uint64_t number = 0;                                ///< in its sequence, counted from 0
+  std::uint64_t gop = 0;                                   ///< equal for frames that are coded together
+  std::shared_ptr<const Mesh> mesh;                        ///< the same object as long as the mesh stays
+  FramePositions positions;                                ///< [vertex][xyz]
+  std::shared_ptr<const std::vector<std::uint8_t>> flags;  ///< [vertex]: 1 important; null without a GOP's
+  std::vector<float> values;  ///< [vertex], what an overlay makes of them; empty without one
 };
 
 /// Frames one after the other, from a stream or from files. Broken input is a ToolError.
@@ -42,7 +43,7 @@ class ShownFrames {
 struct ShownFramesSpec {
   std::vector<std::string> inputs;   ///< a .tvg, "-" for one on standard input, or as SourceSpec has them
   std::optional<FrameRange> frames;  ///< all where absent
-  bool flags = false;                ///< `values` are the importance flags, 1 or 0; only a .tvg has them
+  bool flags = false;                ///< frames come with their importance flags; only a .tvg has them
   bool whole_gops = false;           ///< give out all frames of the GOPs that the range touches
   bool conceal = false;              ///< hold the last good frame where frames are lost, and say so
   SourceOpener open_source = {};     ///< opens inputs that are no .tvg
@@ -58,10 +59,5 @@ std::unique_ptr<ShownFrames> open_frames(const ShownFramesSpec& spec);
 // The two kinds of input behind it.
 std::unique_ptr<ShownFrames> open_stream_frames(const ShownFramesSpec& spec);
 std::unique_ptr<ShownFrames> open_source_frames(const ShownFramesSpec& spec);
-
-/// Frames whose values are the measure's cost over their GOP. `gops` gives out whole GOPs; of these, frames
-/// of `wanted` are passed on. One GOP is in memory at a time; a ToolError (kOther) where that is more than
-/// 4 GiB.
-std::unique_ptr<ShownFrames> with_cost(std::unique_ptr<ShownFrames> gops, std::optional<FrameRange> wanted);
 
 }  // namespace tvg::cli

@@ -1,4 +1,4 @@
-#include "player/view/overlay.hpp"
+#include "player/overlay/overlay_values.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +25,11 @@ void error_values(std::span<const float> frame, std::span<const float> reference
     };
     values[v] = static_cast<float>(std::hypot(off(0), off(1), off(2)));
   }
+}
+
+std::string short_units(const Metadata& metadata) {
+  const auto units = metadata.find("units");
+  return units != metadata.end() && units->second.size() <= 12 ? units->second : "";
 }
 
 }  // namespace tvg::cli

@@ -1,4 +1,4 @@
-#include "player/view/overlay.hpp"
+#include "player/overlay/overlay_values.hpp"
 
 #include "corpus/corpus.hpp"
 

@@ -1,5 +1,4 @@
-#include "player/render/shown_frames.hpp"
-#include "player/view/overlay.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "tool/concealment.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
@@ -91,7 +90,7 @@ class StreamFrames final : public ShownFrames {
         mesh_ = std::make_shared<const Mesh>(decoder.mesh());
         break;
       case Decoder::Event::kGop:
-        begin_gop(decoder.gop());
+        begin_gop(decoder);
         break;
       case Decoder::Event::kFrame:
         load(decoder);
@@ -112,10 +111,15 @@ class StreamFrames final : public ShownFrames {
     }
   }
 
-  void begin_gop(const GopInfo& gop) {
+  void begin_gop(const Decoder& decoder) {
+    const GopInfo& gop = decoder.gop();
     ++gop_;
     gop_end_ = gop.first_frame + gop.frame_count - 1;
     if (spec_.whole_gops && number_ > gop.first_frame && number_ <= gop_end_) number_ = gop.first_frame;
+    if (!spec_.flags) return;
+    std::vector<std::uint8_t> flags(mesh_->vertex_count);
+    decoder.copy_flags(flags);
+    flags_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(flags));
   }
 
   void load(const Decoder& decoder) {
@@ -125,11 +129,7 @@ class StreamFrames final : public ShownFrames {
     loaded_frame_.mesh = mesh_;
     loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
     decoder.copy_positions(loaded_frame_.positions.data());
-    if (!spec_.flags) return;
-    flags_.resize(mesh_->vertex_count);
-    decoder.copy_flags(flags_);
-    loaded_frame_.values.resize(flags_.size());
-    importance_values(flags_, loaded_frame_.values);
+    loaded_frame_.flags = flags_;
   }
 
   void lose(const Damage& damage) {
@@ -146,9 +146,9 @@ class StreamFrames final : public ShownFrames {
   std::unique_ptr<StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
   std::optional<std::uint64_t> total_;
-  std::vector<std::uint8_t> flags_;
-  ShownFrame loaded_frame_;  // the newest that the decoder gave
-  ShownFrame held_;          // the last good one given out
+  std::shared_ptr<const std::vector<std::uint8_t>> flags_;  // of the present GOP
+  ShownFrame loaded_frame_;                                 // the newest that the decoder gave
+  ShownFrame held_;                                         // the last good one given out
   bool loaded_ = false;
   bool ended_ = false;
   std::uint64_t number_ = 0;    // of the next frame to give out

@@ -1,4 +1,4 @@
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
@@ -35,6 +35,7 @@ class SourceFrames final : public ShownFrames {
     frame.mesh = mesh_;
     frame.number = number_ - 1;
     frame.gop = frame.number / kGopFrames;
+    frame.flags.reset();
     frame.values.clear();
     return true;
   }
