@@ -66,11 +66,8 @@ OpenedInput open(const InputArguments& input) {
   OpenedInput opened;
   opened.source = std::make_unique<StreamSource>(input.inputs.front());
   if (input.skeleton.empty()) return opened;
-  if (has_suffix(input.skeleton, ".bvh")) {
-    fail_option("--skeleton", input.skeleton, "a .tvg takes its joints from JSON");
-  }
   opened.source =
-      with_joints(std::move(opened.source), read_skeleton_file(input.skeleton), input.skeleton, 0);
+      with_joints(std::move(opened.source), read_stream_joints(input.skeleton), input.skeleton, 0);
   return opened;
 }
 

@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 
 namespace tvg::cli {
 
@@ -70,7 +71,7 @@ struct Dependent {
   std::vector<std::string_view> criteria;
 };
 
-void check_dependents(const MeasureArguments& arguments, const Importance& importance) {
+void check_dependents(const CostArguments& arguments, const Importance& importance) {
   const std::array<Dependent, 6> dependents = {{
       {"--alpha", arguments.alpha.has_value(), {"curv", "curvature-norm"}},
       {"--skel-alpha", arguments.skel_alpha.has_value(), {"skel"}},
@@ -88,11 +89,19 @@ void check_dependents(const MeasureArguments& arguments, const Importance& impor
   }
 }
 
+std::function<void(double)> into(std::optional<double>& place) {
+  return [&place](double value) { place = value; };
+}
+
 }  // namespace
 
+bool CostArguments::any() const {
+  return criteria != "curv" || alpha || skel_alpha || skel_threshold || !skel_region.empty() ||
+         !viewpoint.empty() || !weights.empty() || smoothing;
+}
+
 bool MeasureArguments::any() const {
-  return criteria != "curv" || !important.empty() || threshold || alpha || skel_alpha || skel_threshold ||
-         !skel_region.empty() || !viewpoint.empty() || !weights.empty() || !lookahead.empty() || smoothing;
+  return CostArguments::any() || !important.empty() || threshold || !lookahead.empty();
 }
 
 std::vector<CriterionWeight> parse_criteria(const std::string& text) {
@@ -119,21 +128,13 @@ std::vector<CriterionWeight> parse_criteria(const std::string& text) {
   return criteria;
 }
 
-void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
+void add_cost_options(CLI::App& command, CostArguments& arguments) {
   command
       .add_option("--measure", arguments.criteria,
                   fmt::format("what makes vertices important: criteria with weights, as curv+0.5*skel, or as "
                               "=-distance where the first is negative; {}",
                               criterion_names()))
       ->capture_default_str();
-  auto* share = command.add_option("--important", arguments.important,
-                                   "share of important vertices where there are two resolutions (default "
-                                   "35%)");
-  const auto into = [](std::optional<double>& place) { return [&place](double value) { place = value; }; };
-  // Negative weights make negative costs, so a threshold may be any number.
-  add_number(command, "--important-above", {}, into(arguments.threshold),
-             "instead: vertices whose cost is above this")
-      ->excludes(share);
   add_number(command, "--alpha", {0, 1}, into(arguments.alpha),
              fmt::format("of curv: weight of the change of curvature against its mean (default {})",
                          Importance().alpha));
@@ -158,6 +159,17 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
           "--smooth", arguments.smoothing,
           "times the cost is averaged over neighbours (default 0): marks in one piece cost fewer bytes")
       ->check(CLI::Range(0U, kMaxSmoothing));
+}
+
+void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
+  add_cost_options(command, arguments);
+  auto* share = command.add_option("--important", arguments.important,
+                                   "share of important vertices where there are two resolutions (default "
+                                   "35%)");
+  // Negative weights make negative costs, so a threshold may be any number.
+  add_number(command, "--important-above", {}, into(arguments.threshold),
+             "instead: vertices whose cost is above this")
+      ->excludes(share);
   command
       .add_option(
           "--lookahead", arguments.lookahead,
@@ -166,18 +178,15 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
       ->check(CLI::IsMember({"gop", "0"}));
 }
 
-Importance importance_of(const MeasureArguments& arguments) {
+Importance importance_of(const CostArguments& arguments) {
   Importance importance;
   importance.criteria = parse_criteria(arguments.criteria);
   check_dependents(arguments, importance);
-  if (!arguments.important.empty()) importance.share = parse_share(arguments.important);
-  importance.threshold = arguments.threshold;
   importance.alpha = arguments.alpha.value_or(importance.alpha);
   importance.skel_alpha = arguments.skel_alpha.value_or(importance.skel_alpha);
   importance.skel_threshold = arguments.skel_threshold;
   if (arguments.skel_region == "weights") importance.skel_region = JointRegion::kHeaviest;
   importance.smoothing = arguments.smoothing.value_or(importance.smoothing);
-  importance.low_delay = arguments.lookahead == "0";
   if (has_criterion(importance, "distance")) {
     if (arguments.viewpoint.empty()) {
       fail_usage("--measure distance: say from where with --viewpoint, as --viewpoint 0,1.5,-4");
@@ -193,7 +202,30 @@ Importance importance_of(const MeasureArguments& arguments) {
   return importance;
 }
 
-void check_measure(const MeasureArguments& arguments, const Importance& importance, const FrameSource& source,
+Importance importance_of(const MeasureArguments& arguments) {
+  Importance importance = importance_of(static_cast<const CostArguments&>(arguments));
+  if (!arguments.important.empty()) importance.share = parse_share(arguments.important);
+  importance.threshold = arguments.threshold;
+  importance.low_delay = arguments.lookahead == "0";
+  return importance;
+}
+
+std::string words_for(const CostArguments& arguments) {
+  if (!arguments.any()) return arguments.criteria + ", the default";
+  std::string words = arguments.criteria;
+  const auto add = [&words](const char* name, const auto& value) {
+    if (value) words += fmt::format(", {} {:g}", name, static_cast<double>(*value));
+  };
+  add("alpha", arguments.alpha);
+  add("skel-alpha", arguments.skel_alpha);
+  add("skel-threshold", arguments.skel_threshold);
+  if (arguments.skel_region == "weights") words += ", by skin weights";
+  if (!arguments.viewpoint.empty()) words += " from " + arguments.viewpoint;
+  add("smooth", arguments.smoothing);
+  return words;
+}
+
+void check_measure(const CostArguments& arguments, const Importance& importance, const FrameSource& source,
                    const std::vector<std::string>& inputs) {
   if (uses_skeleton(importance) && source.skeleton().empty()) {
     fail_usage(

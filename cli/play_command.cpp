@@ -18,6 +18,7 @@ namespace {
 constexpr double kMostSeconds = 1e6;
 
 struct PlayArguments : LookArguments {
+  ShownMeasureArguments measure;
   std::string location;
   std::string fps;
   std::string screenshot;
@@ -34,6 +35,7 @@ PlayOptions options_of(const PlayArguments& arguments) {
   PlayOptions options;
   static_cast<Look&>(options) = parse_look(arguments);
   options.open_source = source_opener();
+  options.measure = shown_measure(arguments.measure, true);
   options.location = arguments.location;
   if (!arguments.fps.empty()) options.rate = parse_rate(arguments.fps);
   options.speed = arguments.speed;
@@ -44,6 +46,8 @@ PlayOptions options_of(const PlayArguments& arguments) {
   InputFiles inputs;
   inputs.add(options.location);
   inputs.add(with_scene_files(options.reference));
+  inputs.add(arguments.measure.cost.weights);
+  inputs.add(arguments.measure.skeleton);
   inputs.check_output(arguments.screenshot);
   inputs.check_output(arguments.report);
   options.screenshot = arguments.screenshot;
@@ -62,7 +66,7 @@ void add_play_command(CLI::App& tool) {
       "input", arguments->location,
       "a .tvg, an http or https URL of one, or - for standard input; a file can also be dropped on "
       "the window");
-  add_look_options(command, *arguments);
+  add_look_options(command, *arguments, arguments->measure);
   add_count(
       command, "--start", [arguments](std::uint64_t frame) { arguments->start = frame; },
       "the first frame to show, counted from 0");

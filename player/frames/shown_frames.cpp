@@ -3,7 +3,16 @@
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
 
+#include <fmt/format.h>
+
 namespace tvg::cli {
+
+const std::vector<float>& joints_at(const JointTracks& tracks, std::uint64_t frame,
+                                    const std::string& stream) {
+  if (frame < tracks.frames.size()) return tracks.frames[frame];
+  throw ToolError(ExitStatus::kInvalidInput, fmt::format("the skeleton ends after {} frames, and {} goes on",
+                                                         tracks.frames.size(), stream));
+}
 
 bool is_stream(const std::vector<std::string>& inputs) {
   return inputs.size() == 1 && (inputs[0] == "-" || is_stream_file(inputs[0]));

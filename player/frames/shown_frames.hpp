@@ -20,6 +20,7 @@ struct ShownFrame {
   std::shared_ptr<const Mesh> mesh;                        ///< the same object as long as the mesh stays
   FramePositions positions;                                ///< [vertex][xyz]
   std::shared_ptr<const std::vector<std::uint8_t>> flags;  ///< [vertex]: 1 important; null without a GOP's
+  std::vector<float> joints;                               ///< [joint][xyz]; empty without a skeleton
   std::vector<float> values;  ///< [vertex], what an overlay makes of them; empty without one
 };
 
@@ -36,6 +37,8 @@ class ShownFrames {
   virtual std::optional<std::uint64_t> total() const = 0;
   /// Whether vertices come in the order of the sequence that was encoded.
   virtual bool keeps_vertex_order() const { return true; }
+  /// The joints that move the mesh; empty where nobody knows of any. Valid as long as the frames.
+  virtual const Skeleton& skeleton() const = 0;
   /// Valid as soon as the frames are open.
   virtual Metadata metadata() const = 0;
 };
@@ -47,7 +50,13 @@ struct ShownFramesSpec {
   bool whole_gops = false;           ///< give out all frames of the GOPs that the range touches
   bool conceal = false;              ///< hold the last good frame where frames are lost, and say so
   SourceOpener open_source = {};     ///< opens inputs that are no .tvg
+  std::shared_ptr<const JointTracks> joints = {};  ///< of a .tvg, frames by number; null for none
 };
+
+/// Where the joints are in a frame of a stream: [joint][xyz]. Throws ToolError (kInvalidInput) that names the
+/// stream where the tracks end before.
+const std::vector<float>& joints_at(const JointTracks& tracks, std::uint64_t frame,
+                                    const std::string& stream);
 
 /// Whether these inputs are a .tvg.
 bool is_stream(const std::vector<std::string>& inputs);

@@ -36,6 +36,8 @@ class SourceFrames final : public ShownFrames {
     frame.number = number_ - 1;
     frame.gop = frame.number / kGopFrames;
     frame.flags.reset();
+    const std::span<const float> joints = source_->joint_positions();
+    frame.joints.assign(joints.begin(), joints.end());
     frame.values.clear();
     return true;
   }
@@ -50,6 +52,7 @@ class SourceFrames final : public ShownFrames {
     const std::optional<std::uint64_t> frames = source_->frame_count();
     return frames ? std::optional(begin_ + *frames) : std::nullopt;
   }
+  const Skeleton& skeleton() const override { return source_->skeleton(); }
   Metadata metadata() const override { return source_->metadata(); }
 
  private:

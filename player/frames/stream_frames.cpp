@@ -45,6 +45,7 @@ class StreamFrames final : public ShownFrames {
 
   std::optional<std::uint64_t> total() const override { return total_; }
   bool keeps_vertex_order() const override { return reader_->decoder().mesh_info().keeps_vertex_order; }
+  const Skeleton& skeleton() const override { return spec_.joints ? spec_.joints->skeleton : none_; }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
 
  private:
@@ -130,6 +131,7 @@ class StreamFrames final : public ShownFrames {
     loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
     decoder.copy_positions(loaded_frame_.positions.data());
     loaded_frame_.flags = flags_;
+    if (spec_.joints) loaded_frame_.joints = joints_at(*spec_.joints, loaded_frame_.number, reader_->name());
   }
 
   void lose(const Damage& damage) {
@@ -142,6 +144,7 @@ class StreamFrames final : public ShownFrames {
   }
 
   ShownFramesSpec spec_;
+  const Skeleton none_;
   Concealment concealment_;
   std::unique_ptr<StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;

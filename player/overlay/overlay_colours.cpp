@@ -38,16 +38,16 @@ class ImportanceColours final : public OverlayColours {
 /// frames show the cost of the GOP before until they have come once.
 class CostColours final : public OverlayColours {
  public:
-  explicit CostColours(std::optional<double> largest) : OverlayColours(kShareBelowCost, largest) {}
+  CostColours(ShownMeasure measure, std::optional<double> largest)
+      : OverlayColours(kShareBelowCost, largest), measure_(std::move(measure)) {}
 
-  Legend legend() const override { return bar_legend(kCostTitle); }
+  Legend legend() const override { return bar_legend(fmt::format("cost ({})", measure_.words)); }
 
   void begin_gop(const OverlayGop& gop) override {
+    gop_ = gop;
     frames_.clear();
-    first_frame_ = gop.first_frame;
-    frame_count_ = gop.frame_count;
-    ahead_ = gop.frames;
-    const auto known = costs_.find(first_frame_);
+    joints_.clear();
+    const auto known = costs_.find(gop.first_frame);
     known_ = known != costs_.end();
     if (known_) present_ = known->second;
   }
@@ -60,35 +60,41 @@ class CostColours final : public OverlayColours {
 
   /// Of all frames where they are there; else of those that came, so that there is something to show.
   void learn(const OverlayFrame& frame) {
-    if (!ahead_.empty()) return take_cost(frame.mesh, ahead_);
-    const bool in_sequence = frames_.size() == frame.number - first_frame_;
-    if (in_sequence) frames_.emplace_back(frame.positions.begin(), frame.positions.end());
-    if (frames_.size() == frame_count_) return take_cost(frame.mesh, frames_);
+    if (!gop_.frames.positions.empty()) return take_cost(frame.mesh, gop_.frames);
+    const bool in_sequence = frames_.size() == frame.number - gop_.first_frame;
+    if (in_sequence) {
+      frames_.emplace_back(frame.positions.begin(), frame.positions.end());
+      joints_.emplace_back(frame.joints.begin(), frame.joints.end());
+    }
+    if (frames_.size() == gop_.frame_count) {
+      return take_cost(frame.mesh, {frames_, gop_.frames.skeleton, joints_});
+    }
     if (present_ != nullptr && present_->size() == frame.mesh.vertex_count) return;
     const FramePositions alone(frame.positions.begin(), frame.positions.end());
-    take_cost(frame.mesh, {&alone, 1});
+    const std::vector<float> joints(frame.joints.begin(), frame.joints.end());
+    take_cost(frame.mesh, {{&alone, 1}, gop_.frames.skeleton, {&joints, 1}});
   }
 
-  void take_cost(const Mesh& mesh, std::span<const FramePositions> frames) {
-    present_ = std::make_shared<const std::vector<float>>(cost_values(mesh, frames));
+  void take_cost(const Mesh& mesh, const MeasuredFrames& frames) {
+    present_ = std::make_shared<const std::vector<float>>(cost_values(mesh, frames, measure_.importance));
     scale().measure(*present_);
-    if (frames.size() == frame_count_) remember();
+    if (frames.positions.size() == gop_.frame_count) remember();
   }
 
   void remember() {
     constexpr std::size_t kMostBytes = std::size_t{128} << 20;
     known_ = true;
-    frames_.clear();
-    frames_.shrink_to_fit();
-    costs_.insert_or_assign(first_frame_, present_);
+    frames_ = {};
+    joints_ = {};
+    costs_.insert_or_assign(gop_.first_frame, present_);
     if (costs_.size() * present_->size() * sizeof(float) > kMostBytes) costs_.erase(costs_.begin());
   }
 
-  std::uint64_t first_frame_ = 0;
-  std::uint64_t frame_count_ = 0;
-  bool known_ = false;  // the present GOP's cost is
-  std::span<const FramePositions> ahead_;
-  std::vector<FramePositions> frames_;  // of the present GOP, while its cost is not known
+  const ShownMeasure measure_;
+  OverlayGop gop_;
+  bool known_ = false;                      // the present GOP's cost is
+  std::vector<FramePositions> frames_;      // of the present GOP, while its cost is not known
+  std::vector<std::vector<float>> joints_;  // the same
   std::map<std::uint64_t, std::shared_ptr<const std::vector<float>>> costs_;  // by a GOP's first frame
   std::shared_ptr<const std::vector<float>> present_;
 };
@@ -120,12 +126,18 @@ ColourMap colour_map_of(Overlay overlay) {
 }
 
 OverlayScale::OverlayScale(double share, std::optional<double> largest)
-    : share_(share), largest_(static_cast<float>(largest.value_or(0))), kept_(largest.has_value()) {}
+    : share_(share), range_{0, static_cast<float>(largest.value_or(0))}, kept_(largest.has_value()) {}
 
 void OverlayScale::measure(std::span<const float> values) {
+  if (values.empty()) return;
   const float value = value_at_share(values, share_, scratch_);
+  const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
   const std::lock_guard lock(mutex_);
-  if (!kept_) largest_ = std::max(largest_, value);
+  if (kept_) return;
+  range_.smallest = std::min(range_.smallest, *smallest);
+  range_.largest = empty_ ? value : std::max(range_.largest, value);
+  peak_ = empty_ ? *largest : std::max(peak_, *largest);
+  empty_ = false;
 }
 
 void OverlayScale::keep() {
@@ -133,15 +145,17 @@ void OverlayScale::keep() {
   kept_ = true;
 }
 
-float OverlayScale::largest() const {
+ValueRange OverlayScale::range() const {
   const std::lock_guard lock(mutex_);
-  return largest_;
+  // Where hardly a vertex has a value, those few are what there is to see.
+  const bool flat = !empty_ && !(range_.largest > range_.smallest);
+  return {range_.smallest, flat ? peak_ : range_.largest};
 }
 
 void OverlayColours::colour(const OverlayFrame& frame, std::vector<float>& values) {
   values.clear();
   fill(frame, values);
-  scale_values(values, {0, scale_.largest()});
+  scale_values(values, scale_.range());
 }
 
 std::string OverlayColours::scale_note() const {
@@ -151,7 +165,9 @@ std::string OverlayColours::scale_note() const {
 Legend OverlayColours::bar_legend(const std::string& title) const {
   Legend legend;
   legend.title = title;
-  legend.largest = double{scale_.largest()};
+  const ValueRange range = scale_.range();
+  legend.smallest = double{range.smallest};
+  legend.largest = double{range.largest};
   return legend;
 }
 
@@ -162,7 +178,7 @@ std::unique_ptr<OverlayColours> make_overlay_colours(const OverlaySpec& spec) {
     case Overlay::kImportance:
       return std::make_unique<ImportanceColours>();
     case Overlay::kCost:
-      return std::make_unique<CostColours>(spec.largest);
+      return std::make_unique<CostColours>(spec.measure, spec.largest);
     case Overlay::kError:
       return std::make_unique<ErrorColours>(spec.reference, spec.largest);
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include "player/overlay/overlay_values.hpp"
 #include "player/overlay/reference_frames.hpp"
 #include "player/view/look.hpp"
 #include "player/view/text_layer.hpp"
@@ -21,14 +22,15 @@ struct OverlaySpec {
   Overlay overlay = Overlay::kNone;
   std::optional<double> largest;               ///< value of the last colour; measured where absent
   std::shared_ptr<ReferenceFrames> reference;  ///< of kError, which needs one
+  ShownMeasure measure{};                      ///< of kCost
 };
 
 /// Frames that are coded together.
 struct OverlayGop {
   std::uint64_t first_frame = 0;
   std::uint64_t frame_count = 0;
-  /// All of them, [frame][vertex][xyz], valid until the next GOP begins; empty where they come one by one.
-  std::span<const FramePositions> frames;
+  /// All of them, valid until the next GOP begins; empty, but for the skeleton, where they come one by one.
+  MeasuredFrames frames;
 };
 
 /// A frame to be coloured.
@@ -37,6 +39,7 @@ struct OverlayFrame {
   const Mesh& mesh;
   std::span<const float> positions;     ///< [vertex][xyz]
   std::span<const std::uint8_t> flags;  ///< [vertex], of kImportance
+  std::span<const float> joints{};      ///< [joint][xyz], of kCost; empty without a skeleton
   bool keeps_vertex_order = true;       ///< vertices are in the order of the sequence that was encoded
 };
 
@@ -57,13 +60,15 @@ class OverlayScale {
   void keep();
 
   double share() const { return share_; }
-  /// 0 before anything was measured.
-  float largest() const;
+  /// 0 to 0 before anything was measured.
+  ValueRange range() const;
 
  private:
   const double share_;
   mutable std::mutex mutex_;
-  float largest_;
+  ValueRange range_;
+  float peak_ = 0;  // the largest value of all
+  bool empty_ = true;
   bool kept_;
   std::vector<float> scratch_;
 };

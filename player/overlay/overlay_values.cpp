@@ -1,5 +1,7 @@
 #include "player/overlay/overlay_values.hpp"
 
+#include "tool/tool_error.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +14,11 @@ void importance_values(std::span<const std::uint8_t> flags, std::span<float> val
                  [](std::uint8_t flag) { return flag != 0 ? 1.0F : 0.0F; });
 }
 
-std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions> frames) {
-  const Result<Measure> measured = measure(mesh, frames, {}, {}, Importance());
-  if (!measured) return std::vector<float>(mesh.vertex_count, 0.0F);  // there are no frames
+std::vector<float> cost_values(const Mesh& mesh, const MeasuredFrames& frames, const Importance& importance) {
+  static const Skeleton kNone;
+  const Skeleton& skeleton = frames.skeleton != nullptr ? *frames.skeleton : kNone;
+  const Result<Measure> measured = measure(mesh, frames.positions, skeleton, frames.joints, importance);
+  if (!measured) throw tool_error("--overlay cost", measured.error());
   return {measured->cost.begin(), measured->cost.end()};
 }
 

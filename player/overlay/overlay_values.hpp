@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <tvg/measure.hpp>
 #include <tvg/source.hpp>
 #include <tvg/types.hpp>
 
@@ -15,12 +17,24 @@ namespace tvg::cli {
 /// flags.
 void importance_values(std::span<const std::uint8_t> flags, std::span<float> values);
 
-/// What a legend calls cost_values(). A stream does not say which measure chose its important vertices.
-inline constexpr const char* kCostTitle = "cost (curv, the default)";
+/// The measure whose cost is shown. A stream does not say which one chose its important vertices.
+struct ShownMeasure {
+  Importance importance;
+  std::string words = "curv, the default";      ///< what a legend calls it
+  std::shared_ptr<const JointTracks> joints{};  ///< of a .tvg, frames by number; null where nobody named any
+};
 
-/// The default measure's cost of each vertex over the frames of one GOP ([frame][vertex][xyz]), as the
-/// encoder computes it without options; a stream may have been marked by another measure. [vertex].
-std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions> frames);
+/// Frames that are measured together.
+struct MeasuredFrames {
+  std::span<const FramePositions> positions;     ///< [frame][vertex][xyz]
+  const Skeleton* skeleton = nullptr;            ///< null where there is none
+  std::span<const std::vector<float>> joints{};  ///< [frame][joint][xyz]; empty without a skeleton
+};
+
+/// The cost of each vertex over the frames of one GOP, at least one, as the encoder computes it: [vertex].
+/// Throws ToolError (kUsage) where the criteria do not find what they need.
+std::vector<float> cost_values(const Mesh& mesh, const MeasuredFrames& frames,
+                               const Importance& importance = {});
 
 /// Distance of each vertex of a frame from where a reference has it, in the units of the positions.
 /// `frame` and `reference`: [vertex][xyz] of one length; `values`: [vertex].

@@ -46,8 +46,11 @@ void draw_measure_picture(const std::string& path, const FrameSource& source, co
   painter.set_scene(bounds, up, camera);
 
   const ValueRange range = cost_range(frame.cost);
-  ShownFrame shown{frame.number,    0,  std::make_shared<const Mesh>(source.mesh()),
-                   frame.positions, {}, frame.cost};
+  ShownFrame shown;
+  shown.number = frame.number;
+  shown.mesh = std::make_shared<const Mesh>(source.mesh());
+  shown.positions = frame.positions;
+  shown.values = frame.cost;
   painter.begin();
   scale_values(shown.values, range);
   painter.draw(shown, PicturePainter::Which::kShown, ColourMap::kViridis, cells[0]);

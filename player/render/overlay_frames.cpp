@@ -20,14 +20,14 @@ std::string scale_note(const OverlayColours& colours, const RenderOptions& optio
 OverlayFrames::OverlayFrames(const RenderOptions& options) : options_(options) {
   const bool cost = options.overlay == Overlay::kCost;
   frames_ = open_frames({options.inputs, options.frames, options.overlay == Overlay::kImportance, cost,
-                         options.conceal, options.open_source});
+                         options.conceal, options.open_inputs, options.measure.joints});
   if (!options.reference.empty()) {
     references_ =
         std::make_shared<ReferenceFrames>(ShownFramesSpec{options.reference, options.frames, false, false,
                                                           options.conceal, options.open_source},
                                           options.inputs.front());
   }
-  colours_ = make_overlay_colours({options.overlay, options.largest, references_});
+  colours_ = make_overlay_colours({options.overlay, options.largest, references_, options.measure});
   if (cost) frames_ = with_whole_gops(std::move(frames_), options.frames, *colours_);
 }
 
@@ -44,7 +44,8 @@ bool OverlayFrames::next() {
   if (!frames_->next(frame_)) return false;
   if (references_) reference_frame_ = &references_->at(frame_.number);
   if (!colours_) return true;
-  OverlayFrame frame{frame_.number, *frame_.mesh, frame_.positions, {}, frames_->keeps_vertex_order()};
+  OverlayFrame frame{
+      frame_.number, *frame_.mesh, frame_.positions, {}, frame_.joints, frames_->keeps_vertex_order()};
   if (frame_.flags) frame.flags = *frame_.flags;
   colours_->colour(frame, frame_.values);
   return true;

@@ -1,4 +1,5 @@
 #pragma once
+#include "player/overlay/overlay_values.hpp"
 #include "player/view/look.hpp"
 #include "tool/frame_pattern.hpp"
 
@@ -38,6 +39,8 @@ struct RenderOptions : Look {
   Output kind = Output::kPicture;
   std::optional<FramePattern> pattern;  ///< kFrames: names of the pictures
   std::optional<FrameRange> frames;
+  SourceOpener open_inputs;       ///< opens inputs that are no .tvg
+  ShownMeasure measure;           ///< of Overlay::kCost
   std::optional<double> largest;  ///< value at the upper end of the colours, in the overlay's units
   std::optional<SheetShape> sheet;
   std::optional<std::string> fps;  ///< "30" or "30000/1001"

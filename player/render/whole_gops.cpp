@@ -20,6 +20,7 @@ class WholeGops final : public ShownFrames {
     for (;;) {
       if (given_ == positions_.size() && !load_gop()) return false;
       const std::uint64_t number = first_ + given_;
+      frame.joints = joints_[given_];
       frame.positions = positions_[given_++];
       if (wanted_ && number < wanted_->first) continue;
       if (wanted_ && number > wanted_->last) return false;
@@ -32,21 +33,26 @@ class WholeGops final : public ShownFrames {
 
   bool rewind() override {
     if (!gops_->rewind()) return false;
-    positions_.clear();
-    given_ = 0;
+    forget_gop();
     ahead_.reset();
     return true;
   }
 
   std::optional<std::uint64_t> total() const override { return gops_->total(); }
   bool keeps_vertex_order() const override { return gops_->keeps_vertex_order(); }
+  const Skeleton& skeleton() const override { return gops_->skeleton(); }
   Metadata metadata() const override { return gops_->metadata(); }
 
  private:
+  void forget_gop() {
+    positions_.clear();
+    joints_.clear();
+    given_ = 0;
+  }
+
   /// Reads a GOP and the frame after it, by which one knows that it has ended.
   bool load_gop() {
-    positions_.clear();
-    given_ = 0;
+    forget_gop();
     if (!ahead_) {
       ahead_.emplace();
       if (!gops_->next(*ahead_)) return false;
@@ -65,21 +71,23 @@ class WholeGops final : public ShownFrames {
                                     first_, kMostGopBytes >> 30));
       }
       positions_.push_back(std::move(ahead_->positions));
+      joints_.push_back(std::move(ahead_->joints));
       *ahead_ = {};
       if (!gops_->next(*ahead_)) {
         *ahead_ = {};
         break;
       }
     }
-    colours_.begin_gop({first_, positions_.size(), positions_});
+    colours_.begin_gop({first_, positions_.size(), {positions_, &gops_->skeleton(), joints_}});
     return true;
   }
 
   std::unique_ptr<ShownFrames> gops_;
   std::optional<FrameRange> wanted_;
   OverlayColours& colours_;
-  std::optional<ShownFrame> ahead_;        // without a mesh: the end is reached
-  std::vector<FramePositions> positions_;  // of the GOP, [frame][vertex][xyz]
+  std::optional<ShownFrame> ahead_;         // without a mesh: the end is reached
+  std::vector<FramePositions> positions_;   // of the GOP, [frame][vertex][xyz]
+  std::vector<std::vector<float>> joints_;  // [frame][joint][xyz]
   std::shared_ptr<const Mesh> mesh_;
   std::uint64_t first_ = 0;
   std::uint64_t gop_ = 0;

@@ -33,7 +33,7 @@ struct Look {
   int height = 720;
   ViewAngles angles;
   Overlay overlay = Overlay::kNone;
-  SourceOpener open_source;            ///< opens a reference, or inputs, that are no .tvg
+  SourceOpener open_source;            ///< opens a reference that is no .tvg
   std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none
   Style style;
 };

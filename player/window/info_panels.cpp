@@ -175,8 +175,11 @@ void draw_welcome() {
 }
 
 void draw_notice(const std::string& notice) {
-  begin_panel("notice", {ImGui::GetIO().DisplaySize.x / 2, kMargin}, {0.5F, 0});
+  const float width = ImGui::GetIO().DisplaySize.x;
+  begin_panel("notice", {width / 2, kMargin}, {0.5F, 0});
+  ImGui::PushTextWrapPos(width - 4 * kMargin);
   text(notice);
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 

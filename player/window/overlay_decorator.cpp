@@ -2,21 +2,28 @@
 
 #include "tool/tool_error.hpp"
 
+#include <utility>
+
 namespace tvg::cli {
 
-OverlayDecorator::OverlayDecorator(const OverlaySpec& spec)
-    : overlay_(spec.overlay), colours_(make_overlay_colours(spec)) {}
+OverlayDecorator::OverlayDecorator(const OverlaySpec& spec, std::string stream)
+    : overlay_(spec.overlay),
+      joints_(spec.measure.joints),
+      stream_(std::move(stream)),
+      colours_(make_overlay_colours(spec)) {}
 
 void OverlayDecorator::on_gop(const Mesh&, const PlayerGop& gop) {
-  colours_->begin_gop({gop.info.first_frame, gop.info.frame_count, {}});
+  colours_->begin_gop(
+      {gop.info.first_frame, gop.info.frame_count, {{}, joints_ ? &joints_->skeleton : nullptr}});
 }
 
 void OverlayDecorator::on_frame(PlayerFrame& frame) {
   std::string problem;
   try {
-    colours_->colour(
-        {frame.number, *frame.mesh, frame.positions, frame.gop->flags, frame.gop->keeps_vertex_order},
-        frame.values);
+    OverlayFrame shown{frame.number,     *frame.mesh, frame.positions,
+                       frame.gop->flags, {},          frame.gop->keeps_vertex_order};
+    if (joints_ && overlay_ == Overlay::kCost) shown.joints = joints_at(*joints_, frame.number, stream_);
+    colours_->colour(shown, frame.values);
   } catch (const ToolError& error) {
     frame.values.clear();
     problem = error.what();
@@ -29,9 +36,12 @@ Legend OverlayDecorator::legend() const {
   Legend legend = colours_->legend();
   if (overlay_ == Overlay::kCost) legend.note = "of the GOP before until a GOP is whole";
   if (overlay_ == Overlay::kError) legend.note = colours_->scale_note() + " any frame so far";
-  const std::lock_guard lock(mutex_);
-  if (!problem_.empty()) legend.note = problem_;
   return legend;
+}
+
+std::string OverlayDecorator::problem() const {
+  const std::lock_guard lock(mutex_);
+  return problem_;
 }
 
 }  // namespace tvg::cli

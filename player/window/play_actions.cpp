@@ -37,12 +37,12 @@ void PlaySession::set_overlay(Overlay overlay) {
 
 std::shared_ptr<OverlayDecorator> PlaySession::make_decorator(Overlay overlay) const {
   if (overlay == Overlay::kNone) return nullptr;
-  OverlaySpec spec{overlay, {}, nullptr};
+  OverlaySpec spec{overlay, {}, nullptr, options_.measure};
   if (overlay == Overlay::kError) {
     spec.reference = std::make_shared<ReferenceFrames>(
         ShownFramesSpec{options_.reference, {}, false, false, false, options_.open_source}, name_);
   }
-  return std::make_shared<OverlayDecorator>(spec);
+  return std::make_shared<OverlayDecorator>(spec, name_);
 }
 
 void PlaySession::next_overlay() {

@@ -1,4 +1,5 @@
 #pragma once
+#include "player/overlay/overlay_values.hpp"
 #include "player/view/look.hpp"
 
 #include <cstdint>
@@ -10,6 +11,7 @@ namespace tvg::cli {
 /// What `tvg play` was asked for.
 struct PlayOptions : Look {
   std::string location;  ///< a path, "-" or a URL; empty: a window that waits for one
+  ShownMeasure measure;  ///< of Overlay::kCost
   std::optional<double> rate;
   double speed = 1;
   bool looping = true;

@@ -133,6 +133,7 @@ InterfaceFacts PlaySession::facts(double now) const {
   facts.notice = notice_;
   if (decorator_ != nullptr) {
     facts.legend = decorator_->legend();
+    if (notice_.empty()) facts.notice = decorator_->problem();
     if (view_.overlay == Overlay::kError) facts.legend->units = short_units(snapshot_.stream.metadata);
   }
   facts.draw_ms = figures_.mean_draw_ms();

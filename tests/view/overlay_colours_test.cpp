@@ -48,7 +48,7 @@ TEST_F(Colours, CostIsTheSameWhetherAGopIsKnownAheadOrComesTwice) {
   const auto by_and_by = make_overlay_colours({Overlay::kCost, 0.2, nullptr});
   for (std::size_t number = 0; number < 2; ++number) {
     const std::vector<FramePositions> frames = gop(number);
-    ahead->begin_gop({number * kGop, kGop, frames});
+    ahead->begin_gop({number * kGop, kGop, {frames}});
     const std::vector<float> values = colour(*ahead, number * kGop);
     EXPECT_GT(*std::max_element(values.begin(), values.end()), 0);
     for (int round = 0; round < 2; ++round) {
@@ -66,6 +66,65 @@ TEST_F(Colours, CostIsSeenFromTheMiddleOfAGopOn) {
   colours->begin_gop({0, kGop, {}});
   const std::vector<float> values = colour(*colours, 3);
   EXPECT_EQ(*std::max_element(values.begin(), values.end()), 1);
+}
+
+TEST_F(Colours, CostIsOfTheMeasureThatIsAskedFor) {
+  const std::vector<FramePositions> frames = gop(0);
+  const auto by = [&](const std::string& criterion, double weight) {
+    OverlaySpec spec{Overlay::kCost, {}, nullptr};
+    spec.measure.importance.criteria = {{criterion, weight}};
+    spec.measure.words = criterion;
+    auto colours = make_overlay_colours(spec);
+    colours->begin_gop({0, kGop, {frames}});
+    return colours;
+  };
+  const auto curv = by("curv", 1);
+  const auto velocity = by("velocity", 1);
+  EXPECT_NE(colour(*curv, 0), colour(*velocity, 0));
+  EXPECT_EQ(velocity->legend().title, "cost (velocity)");
+  const auto near = by("distance", -1);
+  const std::vector<float> values = colour(*near, 0);
+  const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+  EXPECT_EQ(*smallest, 0) << "negative costs have colours of their own";
+  EXPECT_EQ(*largest, 1);
+  EXPECT_LT(near->legend().smallest, near->legend().largest);
+  EXPECT_LT(near->legend().largest, 0);
+  EXPECT_THROW(colour(*by("skel", 1), 0), ToolError) << "there is no skeleton";
+}
+
+TEST_F(Colours, CostFollowsTheJoints) {
+  const corpus::SkinnedSequence animated = corpus::make_hand({400, 2 * kGop});
+  OverlaySpec spec{Overlay::kCost, {}, nullptr};
+  spec.measure.importance.criteria = {{"skel", 1}};
+  const auto ahead = make_overlay_colours(spec);
+  const auto by_and_by = make_overlay_colours(spec);
+  const std::vector<FramePositions> frames = gop(1);
+  const std::vector<std::vector<float>> joints(animated.joints.frames.begin() + kGop,
+                                               animated.joints.frames.end());
+  const Skeleton& skeleton = animated.joints.skeleton;
+  ahead->begin_gop({kGop, kGop, {frames, &skeleton, joints}});
+  by_and_by->begin_gop({kGop, kGop, {{}, &skeleton}});
+  std::vector<float> last;
+  for (std::size_t f = 0; f < kGop; ++f) {
+    OverlayFrame shown = frame(kGop + f);
+    shown.joints = joints[f];
+    by_and_by->colour(shown, last);
+  }
+  const std::vector<float> whole = colour(*ahead, kGop);
+  EXPECT_EQ(last, whole);
+  EXPECT_GT(std::count(whole.begin(), whole.end(), 1.0F), 0);
+  EXPECT_GT(std::count(whole.begin(), whole.end(), 0.0F), 0);
+}
+
+TEST_F(Colours, FewVerticesAboveZeroAreSeen) {
+  OverlaySpec spec{Overlay::kCost, {}, nullptr};
+  spec.measure.importance.criteria = {{"weights", 1}};
+  spec.measure.importance.weights.assign(hand_.mesh.vertex_count, 0.0);
+  spec.measure.importance.weights[3] = 2;
+  const auto colours = make_overlay_colours(spec);
+  colours->begin_gop({0, kGop, {}});
+  EXPECT_EQ(colour(*colours, 0)[3], 1);
+  EXPECT_EQ(colours->legend().largest, 2);
 }
 
 TEST_F(Colours, TheScaleGrowsUntilItIsKept) {

@@ -28,7 +28,7 @@ TEST(CostOverlay, RanksVerticesAsTheEncoderDoes) {
   std::vector<std::uint8_t> flags(hand.mesh.vertex_count);
   decoder.copy_flags(flags);
 
-  const std::vector<float> costs = cost_values(hand.mesh, hand.frames);
+  const std::vector<float> costs = cost_values(hand.mesh, {hand.frames});
   float least_important = std::numeric_limits<float>::infinity();
   float most_plain = 0;
   for (std::size_t v = 0; v < flags.size(); ++v) {

@@ -77,7 +77,7 @@ Image draw_importance() {
 Image draw_cost() {
   const Sequence cloth = corpus_sequence("cloth", 2000);
   ShownFrame frame = shown_frame(cloth, kFrames - 1);
-  frame.values = cost_values(cloth.mesh, cloth.frames);
+  frame.values = cost_values(cloth.mesh, {cloth.frames});
   std::vector<float> scratch;
   scale_values(frame.values, {0, value_at_share(frame.values, 0.95, scratch)});
   return draw(cloth, frame, {});

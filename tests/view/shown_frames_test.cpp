@@ -110,7 +110,7 @@ TEST_F(Shown, CostIsThatOfTheWholeGopWhateverTheRange) {
       }
       EXPECT_EQ(frame.positions, plain[frame.number].positions);
       colours->colour({frame.number, *frame.mesh, frame.positions, {}}, frame.values);
-      std::vector<float> expected = cost_values(hand_.mesh, gop);
+      std::vector<float> expected = cost_values(hand_.mesh, {gop});
       scale_values(expected, {0, kLargest});
       EXPECT_EQ(frame.values, expected) << frame.number;
     }
