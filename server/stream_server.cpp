@@ -68,7 +68,7 @@ class StreamServer::Implementation {
   explicit Implementation(ServerOptions options)
       : options_(std::move(options)),
         root_(canonical_folder(options_.folder)),
-        http_(options_.max_clients, options_.max_per_address, options_.timeout),
+        http_(options_.max_clients, options_.max_per_address, {options_.timeout, options_.now}),
         live_(http_, options_.max_live_streams, relay_limits(options_), options_.timeout, options_.log) {
     add_routes();
     errno = 0;

@@ -20,6 +20,8 @@ struct ServerOptions {
   /// How long a client may take over a request's head, over the next byte of an upload, and over taking a
   /// piece of an answer (64 KiB at most).
   std::chrono::milliseconds timeout{30000};
+  /// The clock that `timeout` goes by; any thread.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
   std::function<void(const std::string&)> log;  ///< hears what live streams do, a line at a time; any thread
 };
 
