@@ -120,7 +120,7 @@ class MeasureJob {
 #endif
       );
     }
-    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights);
+    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights());
     inputs.check_output(arguments_.ply);
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty() && !has_suffix(arguments_.picture, ".png")) {

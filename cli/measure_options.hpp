@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,16 +18,13 @@ namespace tvg::cli {
 /// What the cost of a vertex is: values of the options as typed.
 struct CostArguments {
   std::string criteria = "curv";
-  std::optional<double> alpha;
-  std::optional<double> skel_alpha;
-  std::optional<double> skel_threshold;
-  std::string skel_region;
-  std::string viewpoint;
-  std::string weights;
+  std::map<std::string, std::string> options;  ///< of criterion_options(), by their names: those given
   std::optional<std::uint32_t> smoothing;
 
   /// Whether any option was given.
   bool any() const;
+  /// The file of --weights; empty where none was given.
+  std::string weights() const;
 };
 
 /// The cost, and which vertices it marks.

@@ -46,7 +46,7 @@ PlayOptions options_of(const PlayArguments& arguments) {
   InputFiles inputs;
   inputs.add(options.location);
   inputs.add(with_scene_files(options.reference));
-  inputs.add(arguments.measure.cost.weights);
+  inputs.add(arguments.measure.cost.weights());
   inputs.add(arguments.measure.skeleton);
   inputs.check_output(arguments.screenshot);
   inputs.check_output(arguments.report);

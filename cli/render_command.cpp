@@ -35,7 +35,7 @@ InputFiles files_of(const RenderOptions& options, const ShownMeasureArguments& m
   InputFiles inputs;
   inputs.add(with_scene_files(options.inputs));
   inputs.add(with_scene_files(options.reference));
-  inputs.add(measure.cost.weights);
+  inputs.add(measure.cost.weights());
   inputs.add(measure.skeleton);
   return inputs;
 }
