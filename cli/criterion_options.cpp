@@ -50,7 +50,7 @@ void set_weights(const std::string& text, Importance& importance) {
 }  // namespace
 
 std::span<const CriterionOption> criterion_options() {
-  static const std::array<CriterionOption, 6> kOptions = {{
+  static const std::array<CriterionOption, 6> options = {{
       {"--alpha",
        {"curv", "curvature-norm"},
        "NUMBER",
@@ -88,7 +88,7 @@ std::span<const CriterionOption> criterion_options() {
        set_weights,
        "name the file of the weights with --weights (text or .npy)"},
   }};
-  return kOptions;
+  return options;
 }
 
 }  // namespace tvg::cli

@@ -9,7 +9,7 @@
 
 namespace tvg::cli {
 
-void add_view_options(CLI::App& command, LookArguments& arguments) {
+void add_view_options(CLI::App& command, player::LookArguments& arguments) {
   command.add_option("--size", arguments.size, "width and height in pixels")->capture_default_str();
   command.add_option("--camera", arguments.camera,
                      "front, back, left, right, top, bottom, iso, or azimuth,elevation[,zoom] in degrees "
@@ -20,7 +20,7 @@ void add_view_options(CLI::App& command, LookArguments& arguments) {
   command.add_option("--background", arguments.background, "light (default), dark, white or #rrggbb");
 }
 
-void add_look_options(CLI::App& command, LookArguments& arguments, ShownMeasureArguments& measure) {
+void add_look_options(CLI::App& command, player::LookArguments& arguments, ShownMeasureArguments& measure) {
   command
       .add_option(
           "--overlay", arguments.overlay,
@@ -34,8 +34,8 @@ void add_look_options(CLI::App& command, LookArguments& arguments, ShownMeasureA
   add_view_options(command, arguments);
 }
 
-ShownMeasure shown_measure(const ShownMeasureArguments& arguments, bool of_stream) {
-  ShownMeasure measure{importance_of(arguments.cost), words_for(arguments.cost)};
+player::ShownMeasure shown_measure(const ShownMeasureArguments& arguments, bool of_stream) {
+  player::ShownMeasure measure{importance_of(arguments.cost), words_for(arguments.cost)};
   if (!of_stream) return measure;
   if (!arguments.skeleton.empty()) {
     measure.joints = std::make_shared<const JointTracks>(read_stream_joints(arguments.skeleton));

@@ -21,13 +21,13 @@ struct ShownMeasureArguments {
 };
 
 /// Declares --size, --camera, --shading and the like; `arguments` must outlive the parsing.
-void add_view_options(CLI::App& command, LookArguments& arguments);
+void add_view_options(CLI::App& command, player::LookArguments& arguments);
 /// These, --overlay and --ref, and what the overlay's measure is.
-void add_look_options(CLI::App& command, LookArguments& arguments, ShownMeasureArguments& measure);
+void add_look_options(CLI::App& command, player::LookArguments& arguments, ShownMeasureArguments& measure);
 
 /// What the options mean; reads the files that they name, the skeleton only for a .tvg (`of_stream`): other
 /// inputs bring their joints along. Throws ToolError: kUsage, and as importance_of() and read_stream_joints()
 /// do.
-ShownMeasure shown_measure(const ShownMeasureArguments& arguments, bool of_stream);
+player::ShownMeasure shown_measure(const ShownMeasureArguments& arguments, bool of_stream);
 
 }  // namespace tvg::cli

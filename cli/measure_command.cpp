@@ -40,7 +40,7 @@ struct MeasureCommandArguments {
   bool quiet = false;
 #ifdef TVG_HAS_PLAYER
   std::string picture;
-  LookArguments look;
+  player::LookArguments look;
 #endif
 
   /// Whether one frame is to be shown.
@@ -79,7 +79,7 @@ class MeasureJob {
         importance_(importance_of(arguments.measure)),
         pattern_(parse_frame_pattern(arguments.ply)),
 #ifdef TVG_HAS_PLAYER
-        look_(parse_look(arguments.look)),
+        look_(player::parse_look(arguments.look)),
 #endif
         bar_("measuring", arguments.quiet) {
     check_outputs();
@@ -179,8 +179,8 @@ class MeasureJob {
     }
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty()) {
-      draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
-                           arguments_.measure.criteria, look_);
+      player::draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
+                                   arguments_.measure.criteria, look_);
     }
 #endif
   }
@@ -193,7 +193,7 @@ class MeasureJob {
   const Importance importance_;
   const std::optional<FramePattern> pattern_;  // of --ply
 #ifdef TVG_HAS_PLAYER
-  const Look look_;
+  const player::Look look_;
 #endif
   ProgressBar bar_;
   OpenedInput opened_;

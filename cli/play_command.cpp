@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kMostSeconds = 1e6;
 
-struct PlayArguments : LookArguments {
+struct PlayArguments : player::LookArguments {
   ShownMeasureArguments measure;
   std::string location;
   std::string fps;
@@ -31,9 +31,9 @@ struct PlayArguments : LookArguments {
   bool paused = false;
 };
 
-PlayOptions options_of(const PlayArguments& arguments) {
-  PlayOptions options;
-  static_cast<Look&>(options) = parse_look(arguments);
+player::PlayOptions options_of(const PlayArguments& arguments) {
+  player::PlayOptions options;
+  static_cast<player::Look&>(options) = player::parse_look(arguments);
   options.open_source = source_opener();
   options.measure = shown_measure(arguments.measure, true);
   options.location = arguments.location;
@@ -75,7 +75,7 @@ void add_play_command(CLI::App& tool) {
   command.add_option("--fps", arguments->fps,
                      "frames per second, instead of the stream's own: 30, 30000/1001");
   add_number(
-      command, "--speed", {PlaybackClock::kSlowest, PlaybackClock::kFastest},
+      command, "--speed", {player::PlaybackClock::kSlowest, player::PlaybackClock::kFastest},
       [arguments](double value) { arguments->speed = value; }, "times the frame rate")
       ->default_str("1");
   command.add_option("--memory", arguments->memory_mb, "MiB of decoded frames held at most")
@@ -87,7 +87,7 @@ void add_play_command(CLI::App& tool) {
   command.add_option("--screenshot", arguments->screenshot,
                      "save the window with the first frame as .png, and close");
   command.add_option("--report", arguments->report, "write how playing went as JSON, when the window closes");
-  command.callback([arguments] { run_play_window(options_of(*arguments)); });
+  command.callback([arguments] { player::run_play_window(options_of(*arguments)); });
 }
 
 }  // namespace tvg::cli

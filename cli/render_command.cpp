@@ -15,23 +15,23 @@ namespace tvg::cli {
 
 namespace {
 
-struct RenderCommandArguments : RenderArguments {
+struct RenderCommandArguments : player::RenderArguments {
   ShownMeasureArguments measure;
 };
 
-RenderOptions options_of(const RenderCommandArguments& arguments) {
-  RenderOptions options = parse_render_arguments(arguments);
-  if (arguments.measure.any() && options.overlay != Overlay::kCost) {
+player::RenderOptions options_of(const RenderCommandArguments& arguments) {
+  player::RenderOptions options = player::parse_render_arguments(arguments);
+  if (arguments.measure.any() && options.overlay != player::Overlay::kCost) {
     throw ToolError(ExitStatus::kUsage,
                     "--measure and what goes with it: add --overlay cost, which shows the measure");
   }
   options.open_source = source_opener();
   options.open_inputs = source_opener(arguments.measure.skeleton);
-  options.measure = shown_measure(arguments.measure, is_stream(options.inputs));
+  options.measure = shown_measure(arguments.measure, player::is_stream(options.inputs));
   return options;
 }
 
-InputFiles files_of(const RenderOptions& options, const ShownMeasureArguments& measure) {
+InputFiles files_of(const player::RenderOptions& options, const ShownMeasureArguments& measure) {
   InputFiles inputs;
   inputs.add(with_scene_files(options.inputs));
   inputs.add(with_scene_files(options.reference));
@@ -65,9 +65,9 @@ void add_render_command(CLI::App& tool) {
                    "where frames are damaged, hold the last good one and go on");
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] {
-    const RenderOptions options = options_of(*arguments);
+    const player::RenderOptions options = options_of(*arguments);
     files_of(options, arguments->measure).check_output(options.output);
-    render(options);
+    player::render(options);
   });
 }
 

@@ -14,7 +14,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -174,4 +174,4 @@ void Connection::get_local_ip_and_port(std::string& ip, int& port) const {
     read_address(address, ip, port);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

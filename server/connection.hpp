@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 /// The address of a socket's peer as text; empty where it has gone.
 std::string address_of_peer(socket_t socket);
@@ -70,4 +70,4 @@ class Connection final : public httplib::Stream {
   std::size_t begin_ = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -154,4 +154,4 @@ bool HttpServer::answer_request(Connection& connection, bool last) {
   return answered && !closed_by_client && !body;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 /// httplib's server with this tool's limits on connections: their number, altogether and from one address,
 /// the time and bytes a head may take, what a head may say, and no body but where a handler reads it. Who
@@ -37,4 +37,4 @@ class HttpServer final : public httplib::Server {
   std::atomic<bool> stopping_{false};
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 struct ServerOptions {
   std::string folder;
@@ -59,4 +59,4 @@ class StreamServer {
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

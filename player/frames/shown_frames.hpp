@@ -11,7 +11,7 @@
 #include <tvg/source.hpp>
 #include <tvg/types.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A frame to be drawn, with all that belongs to it.
 struct ShownFrame {
@@ -44,12 +44,12 @@ class ShownFrames {
 };
 
 struct ShownFramesSpec {
-  std::vector<std::string> inputs;   ///< a .tvg, "-" for one on standard input, or as SourceSpec has them
-  std::optional<FrameRange> frames;  ///< all where absent
-  bool flags = false;                ///< frames come with their importance flags; only a .tvg has them
-  bool whole_gops = false;           ///< give out all frames of the GOPs that the range touches
-  bool conceal = false;              ///< hold the last good frame where frames are lost, and say so
-  SourceOpener open_source = {};     ///< opens inputs that are no .tvg
+  std::vector<std::string> inputs;     ///< a .tvg, "-" for one on standard input, or as SourceSpec has them
+  std::optional<FrameRange> frames;    ///< all where absent
+  bool flags = false;                  ///< frames come with their importance flags; only a .tvg has them
+  bool whole_gops = false;             ///< give out all frames of the GOPs that the range touches
+  bool conceal = false;                ///< hold the last good frame where frames are lost, and say so
+  cli::SourceOpener open_source = {};  ///< opens inputs that are no .tvg
   std::shared_ptr<const JointTracks> joints = {};  ///< of a .tvg, frames by number; null for none
 };
 
@@ -69,4 +69,4 @@ std::unique_ptr<ShownFrames> open_frames(const ShownFramesSpec& spec);
 std::unique_ptr<ShownFrames> open_stream_frames(const ShownFramesSpec& spec);
 std::unique_ptr<ShownFrames> open_source_frames(const ShownFramesSpec& spec);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -19,7 +19,8 @@ class SourceFrames final : public ShownFrames {
     if (cut) begin_ = spec.frames->first;
     number_ = begin_;
     if (!spec.frames || cut) return;
-    if (source_->frame_count()) check_frame_range(*spec.frames, *source_->frame_count(), spec.inputs.back());
+    if (source_->frame_count())
+      cli::check_frame_range(*spec.frames, *source_->frame_count(), spec.inputs.back());
     first_ = spec.frames->first - spec.frames->first % kGopFrames;
     last_ = spec.frames->last - spec.frames->last % kGopFrames + kGopFrames - 1;
   }
@@ -29,7 +30,7 @@ class SourceFrames final : public ShownFrames {
     do {
       if (number_ > last_) return false;
       const Result<bool> read = source_->read_frame(frame.positions);
-      if (!read) throw tool_error(read.error());
+      if (!read) throw cli::tool_error(read.error());
       if (!*read) return false;
     } while (number_++ < first_);
     frame.mesh = mesh_;
@@ -72,4 +73,4 @@ std::unique_ptr<ShownFrames> open_source_frames(const ShownFramesSpec& spec) {
   return std::make_unique<SourceFrames>(spec);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

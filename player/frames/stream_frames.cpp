@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -50,7 +50,7 @@ class StreamFrames final : public ShownFrames {
 
  private:
   void open() {
-    reader_ = std::make_unique<StreamReader>(spec_.inputs.front());
+    reader_ = std::make_unique<cli::StreamReader>(spec_.inputs.front());
     loaded_ = ended_ = false;
     held_ = {};
     mesh_.reset();
@@ -58,10 +58,11 @@ class StreamFrames final : public ShownFrames {
     const auto index = reader_->read_index();
     if (index) {
       total_ = index->frame_count();
-      if (spec_.frames) check_frame_range(*spec_.frames, *total_, reader_->name());
+      if (spec_.frames) cli::check_frame_range(*spec_.frames, *total_, reader_->name());
     }
     while (!mesh_ && !ended_) pull();
-    if (!mesh_) throw ToolError(ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
+    if (!mesh_)
+      throw cli::ToolError(cli::ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
     if (!spec_.frames) return;
     number_ = spec_.frames->first;
     if (number_ == 0 || !index) return;
@@ -100,7 +101,7 @@ class StreamFrames final : public ShownFrames {
         lose(decoder.damage());
         break;
       case Decoder::Event::kError:
-        if (!spec_.conceal || !held_.mesh) throw tool_error(reader_->name(), decoder.error());
+        if (!spec_.conceal || !held_.mesh) throw cli::tool_error(reader_->name(), decoder.error());
         concealment_.tell(decoder.error());
         ended_ = true;
         break;
@@ -139,14 +140,14 @@ class StreamFrames final : public ShownFrames {
     std::optional<FrameRange> wanted = spec_.frames;
     if (wanted && number_ > wanted->last) return;
     if (wanted) wanted->first = number_;
-    const std::optional<HeldFrames> lost = concealment_.hold(damage, wanted);
+    const std::optional<cli::HeldFrames> lost = concealment_.hold(damage, wanted);
     if (lost) lost_end_ = std::max(lost_end_, lost->end);
   }
 
   ShownFramesSpec spec_;
   const Skeleton none_;
-  Concealment concealment_;
-  std::unique_ptr<StreamReader> reader_;
+  cli::Concealment concealment_;
+  std::unique_ptr<cli::StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
   std::optional<std::uint64_t> total_;
   std::shared_ptr<const std::vector<std::uint8_t>> flags_;  // of the present GOP
@@ -166,4 +167,4 @@ std::unique_ptr<ShownFrames> open_stream_frames(const ShownFramesSpec& spec) {
   return std::make_unique<StreamFrames>(spec);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -121,8 +121,8 @@ class ErrorColours final : public OverlayColours {
 
 }  // namespace
 
-ColourMap colour_map_of(Overlay overlay) {
-  return overlay == Overlay::kImportance ? ColourMap::kFlags : ColourMap::kViridis;
+cli::ColourMap colour_map_of(Overlay overlay) {
+  return overlay == Overlay::kImportance ? cli::ColourMap::kFlags : cli::ColourMap::kViridis;
 }
 
 OverlayScale::OverlayScale(double share, std::optional<double> largest)
@@ -130,7 +130,7 @@ OverlayScale::OverlayScale(double share, std::optional<double> largest)
 
 void OverlayScale::measure(std::span<const float> values) {
   if (values.empty()) return;
-  const float value = value_at_share(values, share_, scratch_);
+  const float value = cli::value_at_share(values, share_, scratch_);
   const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
   const std::lock_guard lock(mutex_);
   if (kept_) return;
@@ -145,7 +145,7 @@ void OverlayScale::keep() {
   kept_ = true;
 }
 
-ValueRange OverlayScale::range() const {
+cli::ValueRange OverlayScale::range() const {
   const std::lock_guard lock(mutex_);
   // Where hardly a vertex has a value, those few are what there is to see.
   const bool flat = !empty_ && !(range_.largest > range_.smallest);
@@ -155,7 +155,7 @@ ValueRange OverlayScale::range() const {
 void OverlayColours::colour(const OverlayFrame& frame, std::vector<float>& values) {
   values.clear();
   fill(frame, values);
-  scale_values(values, scale_.range());
+  cli::scale_values(values, scale_.range());
 }
 
 std::string OverlayColours::scale_note() const {
@@ -165,7 +165,7 @@ std::string OverlayColours::scale_note() const {
 Legend OverlayColours::bar_legend(const std::string& title) const {
   Legend legend;
   legend.title = title;
-  const ValueRange range = scale_.range();
+  const cli::ValueRange range = scale_.range();
   legend.smallest = double{range.smallest};
   legend.largest = double{range.largest};
   return legend;
@@ -185,4 +185,4 @@ std::unique_ptr<OverlayColours> make_overlay_colours(const OverlaySpec& spec) {
   return nullptr;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

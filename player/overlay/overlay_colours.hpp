@@ -15,7 +15,7 @@
 #include <tvg/source.hpp>
 #include <tvg/types.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What `--overlay` asks for.
 struct OverlaySpec {
@@ -44,7 +44,7 @@ struct OverlayFrame {
 };
 
 /// The colour map of an overlay.
-ColourMap colour_map_of(Overlay overlay);
+cli::ColourMap colour_map_of(Overlay overlay);
 
 /// What the last colour stands for: the value that a share of all vertices does not exceed, in the frame
 /// where that is largest. Few vertices lie far above all others; the colours are for the rest. Any thread may
@@ -61,12 +61,12 @@ class OverlayScale {
 
   double share() const { return share_; }
   /// 0 to 0 before anything was measured.
-  ValueRange range() const;
+  cli::ValueRange range() const;
 
  private:
   const double share_;
   mutable std::mutex mutex_;
-  ValueRange range_;
+  cli::ValueRange range_;
   float peak_ = 0;  // the largest value of all
   bool empty_ = true;
   bool kept_;
@@ -108,4 +108,4 @@ class OverlayColours {
 /// Null for kNone.
 std::unique_ptr<OverlayColours> make_overlay_colours(const OverlaySpec& spec);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 
 #include <tvg/measure.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 void importance_values(std::span<const std::uint8_t> flags, std::span<float> values) {
   std::transform(flags.begin(), flags.end(), values.begin(),
@@ -15,10 +15,10 @@ void importance_values(std::span<const std::uint8_t> flags, std::span<float> val
 }
 
 std::vector<float> cost_values(const Mesh& mesh, const MeasuredFrames& frames, const Importance& importance) {
-  static const Skeleton kNone;
-  const Skeleton& skeleton = frames.skeleton != nullptr ? *frames.skeleton : kNone;
+  static const Skeleton none;
+  const Skeleton& skeleton = frames.skeleton != nullptr ? *frames.skeleton : none;
   const Result<Measure> measured = measure(mesh, frames.positions, skeleton, frames.joints, importance);
-  if (!measured) throw tool_error("--overlay cost", measured.error());
+  if (!measured) throw cli::tool_error("--overlay cost", measured.error());
   return {measured->cost.begin(), measured->cost.end()};
 }
 
@@ -36,4 +36,4 @@ std::string short_units(const Metadata& metadata) {
   return units != metadata.end() && units->second.size() <= 12 ? units->second : "";
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -11,7 +11,7 @@
 
 // Values per vertex that colour a mesh, in their own units; scale_values() brings them to a colour map
 // (tool/colour_map.hpp).
-namespace tvg::cli {
+namespace tvg::player {
 
 /// 1 for important vertices and 0 for others, from Decoder::copy_flags(). `values`: [vertex], as many as
 /// flags.
@@ -43,4 +43,4 @@ void error_values(std::span<const float> frame, std::span<const float> reference
 /// The units of positions as metadata have them; empty where they say none, or too much for a legend.
 std::string short_units(const Metadata& metadata);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

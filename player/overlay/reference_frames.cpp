@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 ReferenceFrames::ReferenceFrames(ShownFramesSpec spec, std::string shown)
     : spec_(std::move(spec)), shown_(std::move(shown)), frames_(open_frames(spec_)) {}
@@ -32,10 +32,11 @@ bool ReferenceFrames::read_on_to(std::uint64_t number) {
 
 const ShownFrame& ReferenceFrames::at(std::uint64_t number) {
   if (read_on_to(number)) return frame_;
-  throw ToolError(ExitStatus::kInvalidInput,
-                  fmt::format("{} ends before frame {}, which {} has: a reference needs every frame that is "
-                              "shown",
-                              spec_.inputs.back(), number, shown_));
+  throw cli::ToolError(
+      cli::ExitStatus::kInvalidInput,
+      fmt::format("{} ends before frame {}, which {} has: a reference needs every frame that is "
+                  "shown",
+                  spec_.inputs.back(), number, shown_));
 }
 
 const ShownFrame& ReferenceFrames::same_mesh_at(std::uint64_t number, std::size_t vertices,
@@ -43,18 +44,19 @@ const ShownFrame& ReferenceFrames::same_mesh_at(std::uint64_t number, std::size_
   const ShownFrame& frame = at(number);
   const std::string& name = spec_.inputs.front();
   if (keeps_vertex_order != frames_->keeps_vertex_order()) {
-    throw ToolError(ExitStatus::kUsage,
-                    fmt::format("--overlay error: {} gave up the order of its vertices, so that none can be "
-                                "found in {}",
-                                keeps_vertex_order ? name : shown_, keeps_vertex_order ? shown_ : name));
+    throw cli::ToolError(
+        cli::ExitStatus::kUsage,
+        fmt::format("--overlay error: {} gave up the order of its vertices, so that none can be "
+                    "found in {}",
+                    keeps_vertex_order ? name : shown_, keeps_vertex_order ? shown_ : name));
   }
   if (frame.mesh->vertex_count != vertices) {
-    throw ToolError(
-        ExitStatus::kInvalidInput,
+    throw cli::ToolError(
+        cli::ExitStatus::kInvalidInput,
         fmt::format("{} has {} vertices and {} has {} at frame {}: errors are between frames of one mesh",
                     shown_, vertices, name, frame.mesh->vertex_count, number));
   }
   return frame;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

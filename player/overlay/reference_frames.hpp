@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// The frames of the sequence that another is compared with, by number.
 class ReferenceFrames {
@@ -34,4 +34,4 @@ class ReferenceFrames {
   std::optional<std::uint64_t> end_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 #include <tvg/decoder.hpp>
 #include <tvg/types.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What the frames of a GOP share.
 struct PlayerGop {
@@ -43,4 +43,4 @@ class FrameDecorator {
   virtual void on_frame(PlayerFrame& frame) = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

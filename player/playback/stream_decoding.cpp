@@ -9,7 +9,7 @@
 #include <tvg/normals.hpp>
 
 // The decoding thread of the loader.
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -378,4 +378,4 @@ void StreamLoader::fail(const Error& error) {
   state_.message = names_input ? error.message : input_->name() + ": " + error.describe();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

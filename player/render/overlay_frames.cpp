@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -60,4 +60,4 @@ void OverlayFrames::keep_scale(bool complete) {
   legend_ = std::move(legend);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// The frames that `tvg render` shows, coloured by its overlay, and beside them those of the reference.
 /// Broken input and sequences that do not fit together are ToolErrors.
@@ -27,7 +27,7 @@ class OverlayFrames {
   /// frames (`complete`) or the first alone.
   void keep_scale(bool complete);
 
-  ColourMap map() const { return colour_map_of(options_.overlay); }
+  cli::ColourMap map() const { return colour_map_of(options_.overlay); }
   /// What the colours mean, after keep_scale(); nothing without an overlay.
   const std::optional<Legend>& legend() const { return legend_; }
 
@@ -45,4 +45,4 @@ class OverlayFrames {
   std::optional<Legend> legend_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// The options of `tvg render` as they are typed.
 struct RenderArguments : LookArguments {
@@ -37,9 +37,9 @@ struct RenderOptions : Look {
   std::vector<std::string> inputs;
   std::string output;
   Output kind = Output::kPicture;
-  std::optional<FramePattern> pattern;  ///< kFrames: names of the pictures
+  std::optional<cli::FramePattern> pattern;  ///< kFrames: names of the pictures
   std::optional<FrameRange> frames;
-  SourceOpener open_inputs;       ///< opens inputs that are no .tvg
+  cli::SourceOpener open_inputs;  ///< opens inputs that are no .tvg
   ShownMeasure measure;           ///< of Overlay::kCost
   std::optional<double> largest;  ///< value at the upper end of the colours, in the overlay's units
   std::optional<SheetShape> sheet;
@@ -53,4 +53,4 @@ struct RenderOptions : Look {
 /// Throws ToolError (kUsage) that shows what would be right, also for options that do not go together.
 RenderOptions parse_render_arguments(const RenderArguments& arguments);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

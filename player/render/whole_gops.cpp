@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -65,10 +65,11 @@ class WholeGops final : public ShownFrames {
     while (ahead_->mesh == mesh_ && ahead_->gop == gop_) {
       bytes += ahead_->positions.size() * (sizeof(float) + sizeof(double));
       if (bytes > kMostGopBytes) {
-        throw ToolError(ExitStatus::kOther,
-                        fmt::format("--overlay cost: the GOP at frame {} needs more than {} GiB; encode with "
-                                    "a smaller --gop",
-                                    first_, kMostGopBytes >> 30));
+        throw cli::ToolError(
+            cli::ExitStatus::kOther,
+            fmt::format("--overlay cost: the GOP at frame {} needs more than {} GiB; encode with "
+                        "a smaller --gop",
+                        first_, kMostGopBytes >> 30));
       }
       positions_.push_back(std::move(ahead_->positions));
       joints_.push_back(std::move(ahead_->joints));
@@ -101,4 +102,4 @@ std::unique_ptr<ShownFrames> with_whole_gops(std::unique_ptr<ShownFrames> gops,
   return std::make_unique<WholeGops>(std::move(gops), wanted, colours);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

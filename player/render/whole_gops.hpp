@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Frames for an overlay that has to know a GOP whole: `colours` is shown all of a GOP before its first frame
 /// is given out. `gops` gives out whole GOPs; of these, frames of `wanted` are passed on. One GOP is in
@@ -13,4 +13,4 @@ namespace tvg::cli {
 std::unique_ptr<ShownFrames> with_whole_gops(std::unique_ptr<ShownFrames> gops,
                                              std::optional<FrameRange> wanted, OverlayColours& colours);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

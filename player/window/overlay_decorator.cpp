@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 OverlayDecorator::OverlayDecorator(const OverlaySpec& spec, std::string stream)
     : overlay_(spec.overlay),
@@ -24,7 +24,7 @@ void OverlayDecorator::on_frame(PlayerFrame& frame) {
                        frame.gop->flags, {},          frame.gop->keeps_vertex_order};
     if (joints_ && overlay_ == Overlay::kCost) shown.joints = joints_at(*joints_, frame.number, stream_);
     colours_->colour(shown, frame.values);
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     frame.values.clear();
     problem = error.what();
   }
@@ -44,4 +44,4 @@ std::string OverlayDecorator::problem() const {
   return problem_;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

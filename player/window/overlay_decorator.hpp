@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Colours frames by an overlay in the decoding thread. Its scale only grows, so that colours do not flicker.
 class OverlayDecorator final : public FrameDecorator {
@@ -31,4 +31,4 @@ class OverlayDecorator final : public FrameDecorator {
   std::string problem_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

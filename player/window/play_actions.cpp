@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 WindowEvents PlaySession::events() {
   return {[this](Action action) { act(action); }, [this](const std::string& path) { open(path); },
@@ -19,7 +19,7 @@ WindowEvents PlaySession::events() {
 void PlaySession::open(const std::string& location) {
   try {
     use(open_stream_input(location));
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     notify(error.what());
   }
 }
@@ -27,7 +27,7 @@ void PlaySession::open(const std::string& location) {
 void PlaySession::set_overlay(Overlay overlay) {
   try {
     decorator_ = make_decorator(overlay);
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     notify(error.what());
     return;
   }
@@ -160,4 +160,4 @@ std::uint64_t PlaySession::gop_start(const PlayerSnapshot& state, int direction)
   return found;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What `tvg play` was asked for.
 struct PlayOptions : Look {
@@ -23,4 +23,4 @@ struct PlayOptions : Look {
   std::string report;             ///< where figures go at the end, as JSON
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -164,7 +164,7 @@ void PlaySession::save_picture(const std::string& path) {
   try {
     write_png(path, window_picture(window_.width(), window_.height()));
     notify("saved " + path);
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     if (path == options_.screenshot) throw;
     notify(error.what());
   }
@@ -174,13 +174,13 @@ void PlaySession::report() {
   if (!player_) return;
   snapshot_ = player_->snapshot();
   if (!options_.report.empty()) {
-    AtomicFile file(options_.report);
+    cli::AtomicFile file(options_.report);
     file.write(figures_.report(snapshot_, name_, watch_.now()));
     file.finish();
   }
   if (snapshot_.status == PlayerSnapshot::Status::kFailed && frame_ == nullptr) {
-    throw ToolError(ExitStatus::kInvalidInput, snapshot_.stream.message);
+    throw cli::ToolError(cli::ExitStatus::kInvalidInput, snapshot_.stream.message);
   }
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

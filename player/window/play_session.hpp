@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Seconds since the command began.
 class Stopwatch {
@@ -87,4 +87,4 @@ class PlaySession {
   bool finished_ = false;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -59,7 +59,7 @@ TEST_F(PlayTest, AScreenshotShowsMeshAndControls) {
       "tvg play hand.tvg --start 5 --overlay importance --size 640x400 --screenshot shot.png --report "
       "report.json");
   ASSERT_EQ(result.status, 0) << result.err;
-  const Image shot = read_png(folder_.path("shot.png"));
+  const player::Image shot = player::read_png(folder_.path("shot.png"));
   ASSERT_EQ(shot.width, 640);
   ASSERT_EQ(shot.height, 400);
   const auto differs = [&shot](int column, int row, int other_column, int other_row) {
@@ -80,15 +80,15 @@ TEST_F(PlayTest, TheCostIsOfTheMeasureAskedFor) {
         "shot.png " +
         options);
     EXPECT_EQ(result.status, 0) << result.err;
-    Image shot = read_png(folder_.path("shot.png"));
+    player::Image shot = player::read_png(folder_.path("shot.png"));
     // The panels tell times, which differ: what is compared is the mesh in the middle.
     std::fill_n(shot.pixels.begin(), std::size_t{4} * 640 * 220, std::uint8_t{0});
     std::fill(shot.pixels.begin() + std::ptrdiff_t{4} * 640 * 300, shot.pixels.end(), std::uint8_t{0});
     return shot;
   };
-  const Image curv = shoot("");
-  EXPECT_EQ(compare_images(curv, shoot("--measure curv"), 24).far_share, 0);
-  EXPECT_GT(compare_images(curv, shoot("--measure velocity"), 24).far_share, 0.005);
+  const player::Image curv = shoot("");
+  EXPECT_EQ(player::compare_images(curv, shoot("--measure curv"), 24).far_share, 0);
+  EXPECT_GT(player::compare_images(curv, shoot("--measure velocity"), 24).far_share, 0.005);
 }
 
 TEST_F(PlayTest, AStreamPlaysOverHttpWhileItIsServed) {

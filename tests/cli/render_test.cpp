@@ -40,7 +40,7 @@ class Render : public ToolTest {
     return true;
   }
 
-  Image picture(const std::string& name) const { return read_png(folder_.path(name)); }
+  player::Image picture(const std::string& name) const { return player::read_png(folder_.path(name)); }
 };
 
 TEST_F(Render, NumbersPicturesAsFramesAre) {
@@ -75,10 +75,10 @@ TEST_F(Render, MakesOneSheetOfSeveralFrames) {
 
 TEST_F(Render, DrawsEveryOverlay) {
   good("tvg render hand.tvg -o none.png --frames 6 --size 96x72 --no-labels -q");
-  const Image plain = picture("none.png");
+  const player::Image plain = picture("none.png");
   for (const std::string overlay : {"importance", "cost", "error --ref hand.obj hand.pc2"}) {
     good("tvg render hand.tvg -o overlay.png --frames 6 --size 96x72 --no-labels -q --overlay " + overlay);
-    EXPECT_GT(compare_images(plain, picture("overlay.png"), 24).far_share, 0.05) << overlay;
+    EXPECT_GT(player::compare_images(plain, picture("overlay.png"), 24).far_share, 0.05) << overlay;
   }
 }
 
@@ -91,17 +91,18 @@ TEST_F(Render, ShowsTheCostOfTheMeasureAskedFor) {
     good("tvg render " + options + " -o c.png --frames 6 --size 96x72 --no-labels -q --overlay cost");
     return picture("c.png");
   };
-  const Image curv = draw("hand.tvg");
+  const player::Image curv = draw("hand.tvg");
   EXPECT_EQ(draw("hand.tvg --measure curv").pixels, curv.pixels);
   for (const std::string options :
        {"--measure velocity", "--alpha 1", "--smooth 4", "--measure weights --weights w.txt",
         "--measure=-distance --viewpoint 0,5,-30", "--measure skel --skeleton hand.skeleton.json"}) {
-    EXPECT_GT(compare_images(curv, draw("hand.tvg " + options), 24).far_share, 0.01) << options;
+    EXPECT_GT(player::compare_images(curv, draw("hand.tvg " + options), 24).far_share, 0.01) << options;
   }
   good("tvg decode hand.tvg -o back.pc2 -q");
   const std::string skel = " --measure curv+skel --skeleton hand.skeleton.json";
   good("tvg encode back.obj back.pc2 -o whole.tvg --bits 20 -q");
-  EXPECT_LT(compare_images(draw("whole.tvg" + skel), draw("back.obj back.pc2" + skel), 24).far_share, 0.005)
+  EXPECT_LT(player::compare_images(draw("whole.tvg" + skel), draw("back.obj back.pc2" + skel), 24).far_share,
+            0.005)
       << "a stream's joints are those of its frames";
 }
 

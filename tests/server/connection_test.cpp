@@ -5,7 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace tvg::cli {
+namespace tvg::server {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -45,4 +45,4 @@ TEST_F(LateConnection, AWriteThatFitsIsTaken) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::server

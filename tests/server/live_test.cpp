@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -45,7 +45,7 @@ class Live : public ::testing::Test {
     return answer ? nlohmann::json::parse(answer->body)["streams"] : nlohmann::json::array();
   }
 
-  TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   RunningServer server_{folder_.path("")};
   test::Stream stream_ = make_live_stream(8);
   std::vector<std::size_t> borders_ = gop_borders(stream_);
@@ -232,7 +232,7 @@ TEST_F(Live, TheListingCountsWhatIsThere) {
 }
 
 TEST(LiveLimits, AChunkAboveTheLimitIs413) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.max_chunk_bytes = 100; });
   const test::Stream stream = make_live_stream(3);
   auto put = server.client().Put("/live/cam", text_of(stream, 0, stream.size()), "model/vnd.tvg");
@@ -242,7 +242,7 @@ TEST(LiveLimits, AChunkAboveTheLimitIs413) {
 }
 
 TEST(LiveLimits, OneStreamMoreThanAllowedIs503) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.max_live_streams = 1; });
   const test::Stream stream = make_live_stream(3);
   const std::string body = text_of(stream, 0, stream.size());
@@ -259,7 +259,7 @@ TEST(LiveLimits, OneStreamMoreThanAllowedIs503) {
 }
 
 TEST(LiveLimits, WithoutLiveNothingIsTaken) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.live = false; });
   auto put = server.client().Put("/live/b", "x", "model/vnd.tvg");
   ASSERT_TRUE(put);
@@ -270,7 +270,7 @@ TEST(LiveLimits, WithoutLiveNothingIsTaken) {
 }
 
 TEST(LiveLimits, OneClientMoreThanAllowedIs503AndTheOthersGoOn) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.max_clients = 2; });
   const test::Stream stream = make_live_stream(3);
   const std::vector<std::size_t> borders = gop_borders(stream);
@@ -299,7 +299,7 @@ TEST(LiveLimits, OneClientMoreThanAllowedIs503AndTheOthersGoOn) {
 }
 
 TEST(LiveLimits, AViewerThatDoesNotReadIsCutOffAndTheOthersLoseNothing) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   constexpr std::size_t kIdle = 8;
   const std::string idle_address = "127.0.0.2";
   const std::string request = "GET /live/cam HTTP/1.1\r\nHost: x\r\n\r\n";
@@ -365,7 +365,7 @@ TEST(LiveLimits, AViewerThatDoesNotReadIsCutOffAndTheOthersLoseNothing) {
 }
 
 TEST(LiveLimits, AnUploadThatStallsIsCutOffAndFreesItsName) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   std::atomic<bool> begun{false}, cut_off{false};
   StoppedClock clock;
   const RunningServer server(folder.path(""), [&](ServerOptions& options) {
@@ -390,4 +390,4 @@ TEST(LiveLimits, AnUploadThatStallsIsCutOffAndFreesItsName) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

@@ -20,7 +20,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 
 /// A clock that stands still until a test moves it on: what a time limit does is then no matter of how busy
 /// the machine is. Copies are the same clock.
@@ -260,4 +260,4 @@ class Viewer {
   std::thread thread_;
 };
 
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

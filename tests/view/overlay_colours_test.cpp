@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 constexpr std::size_t kGop = 6;
@@ -89,7 +89,7 @@ TEST_F(Colours, CostIsOfTheMeasureThatIsAskedFor) {
   EXPECT_EQ(*largest, 1);
   EXPECT_LT(near->legend().smallest, near->legend().largest);
   EXPECT_LT(near->legend().largest, 0);
-  EXPECT_THROW(colour(*by("skel", 1), 0), ToolError) << "there is no skeleton";
+  EXPECT_THROW(colour(*by("skel", 1), 0), cli::ToolError) << "there is no skeleton";
 }
 
 TEST_F(Colours, CostFollowsTheJoints) {
@@ -157,15 +157,15 @@ TEST_F(Colours, ErrorsAreFoundInAnyOrderOfFrames) {
 
 TEST_F(Colours, AReferenceThatDoesNotFitIsAnError) {
   const auto colours = make_overlay_colours({Overlay::kError, {}, reference(0.5F, 5)});
-  EXPECT_THROW(colour(*colours, 5), ToolError) << "it has five frames";
+  EXPECT_THROW(colour(*colours, 5), cli::ToolError) << "it has five frames";
   EXPECT_NO_THROW(colour(*colours, 4));
   std::vector<float> values;
   OverlayFrame reordered = frame(4);
   reordered.keeps_vertex_order = false;
-  EXPECT_THROW(colours->colour(reordered, values), ToolError);
+  EXPECT_THROW(colours->colour(reordered, values), cli::ToolError);
   Mesh smaller = hand_.mesh;
   --smaller.vertex_count;
-  EXPECT_THROW(colours->colour({4, smaller, hand_.frames[4], {}}, values), ToolError);
+  EXPECT_THROW(colours->colour({4, smaller, hand_.frames[4], {}}, values), cli::ToolError);
 }
 
 TEST_F(Colours, ImportanceIsYesOrNo) {
@@ -179,7 +179,7 @@ TEST_F(Colours, ImportanceIsYesOrNo) {
   std::vector<float> expected(flags.size());
   expected[7] = 1;
   EXPECT_EQ(values, expected);
-  EXPECT_EQ(colours->legend().map, ColourMap::kFlags);
+  EXPECT_EQ(colours->legend().map, cli::ColourMap::kFlags);
 }
 
 TEST_F(Colours, NoOverlayHasNone) {
@@ -187,4 +187,4 @@ TEST_F(Colours, NoOverlayHasNone) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

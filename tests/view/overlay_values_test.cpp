@@ -8,7 +8,7 @@
 #include <tvg/decoder.hpp>
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 TEST(CostOverlay, RanksVerticesAsTheEncoderDoes) {
@@ -56,4 +56,4 @@ TEST(ImportanceOverlay, IsOneForFlaggedVertices) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -13,7 +13,7 @@
 
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 constexpr std::uint32_t kGop = 5;
@@ -47,7 +47,7 @@ class Shown : public ::testing::Test {
     ShownFramesSpec spec;
     spec.inputs = {folder_.path("hand.obj"), folder_.path("hand.pc2")};
     spec.open_source = [](const auto& inputs, const auto& frames) {
-      return open_source({inputs, frames}).source;
+      return cli::open_source({inputs, frames}).source;
     };
     return spec;
   }
@@ -58,7 +58,7 @@ class Shown : public ::testing::Test {
     return result;
   }
 
-  testing::TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   Sequence hand_;
 };
 
@@ -111,7 +111,7 @@ TEST_F(Shown, CostIsThatOfTheWholeGopWhateverTheRange) {
       EXPECT_EQ(frame.positions, plain[frame.number].positions);
       colours->colour({frame.number, *frame.mesh, frame.positions, {}}, frame.values);
       std::vector<float> expected = cost_values(hand_.mesh, {gop});
-      scale_values(expected, {0, kLargest});
+      cli::scale_values(expected, {0, kLargest});
       EXPECT_EQ(frame.values, expected) << frame.number;
     }
     EXPECT_EQ(number, range.last + 1);
@@ -127,7 +127,7 @@ TEST_F(Shown, FlagsAreThoseOfTheGop) {
     EXPECT_NEAR(static_cast<double>(flagged) / static_cast<double>(frame.flags->size()), 0.35, 0.01);
   }
   spec.inputs = files().inputs;
-  EXPECT_THROW(open_frames(spec), ToolError);
+  EXPECT_THROW(open_frames(spec), cli::ToolError);
 }
 
 TEST_F(Shown, DamageIsAnErrorOrTheLastGoodFrameAgain) {
@@ -135,7 +135,7 @@ TEST_F(Shown, DamageIsAnErrorOrTheLastGoodFrameAgain) {
   std::string bytes = folder_.read("hand.tvg");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x20);
   folder_.write("hand.tvg", bytes);
-  EXPECT_THROW(all(*open_frames(stream())), ToolError);
+  EXPECT_THROW(all(*open_frames(stream())), cli::ToolError);
   ShownFramesSpec spec = stream();
   spec.conceal = true;
   const std::vector<ShownFrame> frames = all(*open_frames(spec));
@@ -153,4 +153,4 @@ TEST_F(Shown, DamageIsAnErrorOrTheLastGoodFrameAgain) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player
