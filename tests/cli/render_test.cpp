@@ -64,6 +64,12 @@ TEST_F(Render, DrawsWhatComesThroughAPipe) {
   EXPECT_EQ(files(".png"), (std::vector<std::string>{"piped_0003.png", "piped_0004.png", "piped_0005.png"}));
 }
 
+TEST_F(Render, DrawsAFileThatTheShellRedirects) {
+  good("tvg render - -o redirected.png --frames 3-5 --size 96x72 -q <hand.tvg");
+  good("tvg render hand.tvg -o named.png --frames 3-5 --size 96x72 -q");
+  EXPECT_EQ(picture("redirected.png").pixels, picture("named.png").pixels);
+}
+
 TEST_F(Render, MakesOneSheetOfSeveralFrames) {
   good("tvg render hand.tvg -o sheet.png --size 320x240 -q");
   good("tvg render hand.tvg -o sheet2.png --size 320x240 --sheet 2x1 -q");
