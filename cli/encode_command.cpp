@@ -142,7 +142,7 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
 
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
-  files_of(arguments, arguments.measure.weights).check_output(arguments.output);
+  files_of(arguments, arguments.measure.weights()).check_output(arguments.output);
   const OpenedInput opened = open_input(arguments, arguments.live);
   options.first_frame = opened.first_frame;
   check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);

@@ -40,7 +40,7 @@ struct MeasureCommandArguments {
   bool quiet = false;
 #ifdef TVG_HAS_PLAYER
   std::string picture;
-  LookArguments look;
+  player::LookArguments look;
 #endif
 
   /// Whether one frame is to be shown.
@@ -66,11 +66,8 @@ OpenedInput open(const InputArguments& input) {
   OpenedInput opened;
   opened.source = std::make_unique<StreamSource>(input.inputs.front());
   if (input.skeleton.empty()) return opened;
-  if (has_suffix(input.skeleton, ".bvh")) {
-    fail_option("--skeleton", input.skeleton, "a .tvg takes its joints from JSON");
-  }
   opened.source =
-      with_joints(std::move(opened.source), read_skeleton_file(input.skeleton), input.skeleton, 0);
+      with_joints(std::move(opened.source), read_stream_joints(input.skeleton), input.skeleton, 0);
   return opened;
 }
 
@@ -82,7 +79,7 @@ class MeasureJob {
         importance_(importance_of(arguments.measure)),
         pattern_(parse_frame_pattern(arguments.ply)),
 #ifdef TVG_HAS_PLAYER
-        look_(parse_look(arguments.look)),
+        look_(player::parse_look(arguments.look)),
 #endif
         bar_("measuring", arguments.quiet) {
     check_outputs();
@@ -123,7 +120,7 @@ class MeasureJob {
 #endif
       );
     }
-    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights);
+    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights());
     inputs.check_output(arguments_.ply);
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty() && !has_suffix(arguments_.picture, ".png")) {
@@ -182,8 +179,8 @@ class MeasureJob {
     }
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty()) {
-      draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
-                           arguments_.measure.criteria, look_);
+      player::draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
+                                   arguments_.measure.criteria, look_);
     }
 #endif
   }
@@ -196,7 +193,7 @@ class MeasureJob {
   const Importance importance_;
   const std::optional<FramePattern> pattern_;  // of --ply
 #ifdef TVG_HAS_PLAYER
-  const Look look_;
+  const player::Look look_;
 #endif
   ProgressBar bar_;
   OpenedInput opened_;

@@ -34,6 +34,8 @@ StreamReader::StreamReader(const std::string& path)
       throw ToolError(ExitStatus::kIo, fmt::format("{}: is a folder; a .tvg file is expected", name_));
     }
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
+    // A file that the shell redirects may have been read before, to be looked through.
+    if (size_ && descriptor_ == STDIN_FILENO) ::lseek(descriptor_, 0, SEEK_SET);
   }
 }
 

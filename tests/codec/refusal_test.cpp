@@ -41,9 +41,9 @@ TEST(Refusals, OptionsOutsideTheirRangeAreRefused) {
       {"share below 0", [](EncodeOptions& o) { o.importance.share = -0.01; }},
       {"share above 1", [](EncodeOptions& o) { o.importance.share = 1.01; }},
       {"share nan", [](EncodeOptions& o) { o.importance.share = kNan; }},
-      {"alpha below 0", [](EncodeOptions& o) { o.importance.alpha = -0.01; }},
-      {"alpha above 1", [](EncodeOptions& o) { o.importance.alpha = 1.01; }},
-      {"alpha nan", [](EncodeOptions& o) { o.importance.alpha = kNan; }},
+      {"alpha below 0", [](EncodeOptions& o) { o.importance.curv.alpha = -0.01; }},
+      {"alpha above 1", [](EncodeOptions& o) { o.importance.curv.alpha = 1.01; }},
+      {"alpha nan", [](EncodeOptions& o) { o.importance.curv.alpha = kNan; }},
       {"no frames per GOP", [](EncodeOptions& o) { o.gop_frames = 0; }},
       {"too many frames per GOP", [](EncodeOptions& o) { o.gop_frames = 65537; }},
   };
