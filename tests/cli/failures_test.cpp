@@ -19,6 +19,7 @@ TEST_F(ToolTest, UsageErrorsShowWhatIsRight) {
   expect_failure(encode + "--bits 25", 1, "1 to 24");
   expect_failure(encode + "--step 0.01:0.03", 1, "0.01:0.04");
   expect_failure(encode + "--step -1", 1, "0.01:0.04");
+  expect_failure(encode + "--step 1e-12", 1, "a step of at least");
   expect_failure(encode + "--bits 13:11 --important 0.35", 1, "35%");
   expect_failure(encode + "--bits 11 --important 35%", 1, "13:11");
   expect_failure(encode + "--predictor magic", 1, "elp");

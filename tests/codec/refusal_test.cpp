@@ -37,6 +37,7 @@ TEST(Refusals, OptionsOutsideTheirRangeAreRefused) {
       {"step below 0", [](EncodeOptions& o) { o.step = -1; }},
       {"step nan", [](EncodeOptions& o) { o.step = kNan; }},
       {"step infinite", [](EncodeOptions& o) { o.step = kInf; }},
+      {"coarse step infinite", [](EncodeOptions& o) { o.step = 1e308, o.coarse_bits = 1; }},
       {"step too small", [](EncodeOptions& o) { o.step = 1e-9; }},
       {"share below 0", [](EncodeOptions& o) { o.importance.share = -0.01; }},
       {"share above 1", [](EncodeOptions& o) { o.importance.share = 1.01; }},

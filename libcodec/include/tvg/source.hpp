@@ -19,7 +19,8 @@ struct Sequence {
   Metadata metadata;
 };
 
-/// A source of frames that is read front to back, so that no one has to hold a whole sequence in memory.
+/// A source of frames that is read front to back, so that no one has to hold a whole sequence in memory. What
+/// needs to see everything twice, rewinds it where it can and does without where it cannot.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
