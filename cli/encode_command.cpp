@@ -1,7 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/input_options.hpp"
 #include "cli/measure_options.hpp"
-#include "cli/watched_source.hpp"
 #include "encoder/live/live_source.hpp"
 #include "encoder/live/stream_output.hpp"
 #include "tool/option_values.hpp"
@@ -161,9 +160,8 @@ void run_encode(const EncodeArguments& arguments) {
   const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
     bar.update(frames, total);
   };
-  WatchedSource source(live != nullptr ? *live : *opened.source);
+  FrameSource& source = live != nullptr ? *live : *opened.source;
   const Result<EncodeReport> report = encode(source, options, sink, progress);
-  if (source.error()) throw tool_error(*source.error());
   if (!report) throw tool_error(input_names(arguments), report.error());
   output->finish();
 

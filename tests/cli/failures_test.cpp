@@ -79,6 +79,8 @@ TEST_F(ToolTest, EveryFileIsNamedOnce) {
     EXPECT_EQ(result.err.find(file), result.err.rfind(file)) << result.err;
     EXPECT_THAT(result.err, HasSubstr("frame")) << result.err;
     EXPECT_THAT(result.err, Not(HasSubstr("[invalid-input"))) << result.err;
+    EXPECT_EQ(run("tvg encode hand.obj " + file + " -o no.tvg --live --fps 1000").err, result.err);
+    EXPECT_EQ(run("tvg measure hand.obj " + file).err, result.err);
   }
   const Outcome piped = run("head -c 9999 hand.pc2 | tvg encode hand.obj - -o no.tvg");
   EXPECT_EQ(piped.status, 3);

@@ -10,25 +10,23 @@ namespace tvg::test {
 namespace {
 
 /// Counts what is asked of a sequence; one that cannot be rewound stands for a pipe.
-class CountingSource final : public FrameSource {
+class CountingSource final : public SourceDecorator {
  public:
-  CountingSource(const Sequence& sequence, bool rewinds) : inner_(sequence), rewinds_(rewinds) {}
+  CountingSource(const Sequence& sequence, bool rewinds)
+      : SourceDecorator(std::make_unique<SequenceSource>(sequence)), rewinds_(rewinds) {}
 
-  const Mesh& mesh() const override { return inner_.mesh(); }
-  std::optional<std::uint64_t> frame_count() const override { return inner_.frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override {
     ++reads;
-    return inner_.read_frame(positions);
+    return SourceDecorator::read_frame(positions);
   }
   bool rewind() override {
     ++rewound;
-    return rewinds_ && inner_.rewind();
+    return rewinds_ && SourceDecorator::rewind();
   }
 
   std::size_t reads = 0, rewound = 0;
 
  private:
-  SequenceSource inner_;
   bool rewinds_;
 };
 
