@@ -252,6 +252,7 @@ void add_info_command(CLI::App& tool) {
                    "decode the stream to tell what x, y and z take and how many vertices are flagged");
   command.add_flag("--json", arguments->json, "print everything as JSON");
   command.callback([arguments] {
+    static_cast<void>(parse_rate(arguments->fps));
     if (has_scene_info(arguments->input)) {
       print_scene_info(arguments->input, arguments->fps, arguments->json);
       return;
