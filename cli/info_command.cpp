@@ -119,9 +119,10 @@ StreamSummary summarize(const std::string& path, bool bits) {
   StreamSummary summary;
   StreamReader reader(path);
   summary.file = reader.name();
-  Result<StreamSurvey> stream = survey([&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+  const auto read = [&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
     return Result<std::size_t>(reader.read_from(offset, bytes));
-  });
+  };
+  Result<StreamSurvey> stream = survey(read, reader.size());
   if (!stream) throw tool_error(reader.name(), stream.error());
   summary.stream = std::move(*stream);
   summary.damages = summary.stream.findings.size();

@@ -101,6 +101,19 @@ TEST_F(ToolTest, EveryCutOfAStreamIsRefusedAndLeavesNothing) {
   }
 }
 
+TEST_F(ToolTest, InfoOfACutFileNamesTheByteAtWhichItEnds) {
+  good("tvg encode hand.obj hand.pc2 -o hand.tvg --bits 20 --gop 6");
+  const std::string whole = folder_.read("hand.tvg");
+  for (const std::size_t size :
+       {std::size_t{100}, whole.size() / 3, 2 * whole.size() / 3, whole.size() - 1}) {
+    folder_.write("cut.tvg", whole.substr(0, size));
+    const std::string place = "byte " + std::to_string(size) + ",";
+    expect_failure("tvg info cut.tvg", 3, place);
+    expect_failure("cat cut.tvg | tvg info -", 3, place);
+  }
+  EXPECT_EQ(run("cat hand.tvg | tvg info - | tail -n +2").out, run("tvg info hand.tvg | tail -n +2").out);
+}
+
 TEST_F(ToolTest, FailuresKeepTheOldOutputAndLeaveNoTemporaryFile) {
   folder_.write("out.tvg", "old");
   const std::string bytes = folder_.read("hand.pc2");
