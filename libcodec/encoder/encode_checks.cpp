@@ -53,6 +53,7 @@ Status check_options(const EncodeOptions& options) {
     return invalid_argument("a decoder can be asked to keep 1 to 65536 meshes");
   if (options.box) {
     if (options.box->empty()) return invalid_argument("the box has no point");
+    if (!std::isfinite(options.box->largest_extent())) return invalid_argument("the box is infinite");
     const Result<Lattice> lattice =
         lattice_over(*options.box, options.fine_bits, options.coarse_bits, options.step);
     if (!lattice) return lattice.error();

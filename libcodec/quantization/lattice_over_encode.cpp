@@ -49,14 +49,9 @@ Result<Lattice> lattice_on_grid(const BoundingBox& box, int coarser, double step
 Result<Lattice> lattice_over(const BoundingBox& box, int fine_bits, int coarse_bits,
                              std::optional<double> step) {
   if (step) return lattice_on_grid(box, fine_bits - coarse_bits, *step);
-  Lattice lattice{box.low(), 1.0, fine_bits, coarse_bits};
-  const double extent = box.largest_extent();
-  if (extent > 0) {
-    lattice.step = extent / static_cast<double>(std::int64_t{1} << fine_bits);
-  } else {
-    lattice.step =
-        std::max(1.0, std::abs(box.low()[0])) * 0x1p-24;  // all in one point: any small cell will do
-  }
+  Lattice lattice{box.low(), std::ldexp(box.largest_extent(), -fine_bits), fine_bits, coarse_bits};
+  // All in one point, as far as binary64 can tell: any small cell will do.
+  if (!(lattice.step > 0)) lattice.step = std::max(1.0, std::abs(box.low()[0])) * 0x1p-24;
   return lattice;
 }
 
