@@ -4,7 +4,6 @@
 #include "cli/measure_report.hpp"
 #include "cli/measured_ply.hpp"
 #include "cli/number_option.hpp"
-#include "cli/watched_source.hpp"
 #include "encoder/importers/skeleton_file.hpp"
 #include "tool/frame_pattern.hpp"
 #include "tool/measured_frame.hpp"
@@ -92,15 +91,14 @@ class MeasureJob {
   void run() {
     MeasureReport report = empty_report();
     std::vector<std::uint8_t> flags;  // of the GOP before
-    WatchedSource source(*opened_.source);
-    const Status status = measure_gops(source, arguments_.gop, importance_, [&](const GopMeasure& gop) {
-      report.gops.push_back(statistics_of(gop, flags));
-      flags = gop.measure.flags;
-      show(gop);
-      bar_.update(gop.first_frame + gop.frames.size(), opened_.source->frame_count());
-      return Status();
-    });
-    if (source.error()) throw tool_error(*source.error());
+    const Status status =
+        measure_gops(*opened_.source, arguments_.gop, importance_, [&](const GopMeasure& gop) {
+          report.gops.push_back(statistics_of(gop, flags));
+          flags = gop.measure.flags;
+          show(gop);
+          bar_.update(gop.first_frame + gop.frames.size(), opened_.source->frame_count());
+          return Status();
+        });
     if (!status.ok()) throw tool_error(input_names(arguments_.input), status.error());
     bar_.clear();
     if (shown_frame_ && !shown_) throw no_such_frame(report);

@@ -2,7 +2,6 @@
 
 #include "tool/tool_error.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -83,19 +82,8 @@ std::vector<std::uint8_t> StreamReader::read_at(std::uint64_t offset, std::size_
 }
 
 std::size_t StreamReader::read_from(std::uint64_t offset, std::span<std::uint8_t> target) {
-  if (size_) {
-    move_to(offset, SEEK_SET);
-    return read_some(target.data(), target.size());
-  }
-  while (read_to_ < offset) {
-    const std::size_t count = read_some(
-        piece_.data(), static_cast<std::size_t>(std::min<std::uint64_t>(piece_.size(), offset - read_to_)));
-    if (count == 0) return 0;
-    read_to_ += count;
-  }
-  const std::size_t count = read_some(target.data(), target.size());
-  read_to_ += count;
-  return count;
+  if (size_) move_to(offset, SEEK_SET);
+  return read_some(target.data(), target.size());
 }
 
 std::optional<StreamMap> StreamReader::read_index() {

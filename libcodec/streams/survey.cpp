@@ -18,8 +18,8 @@ constexpr std::size_t kPieceBytes = std::size_t{1} << 13;
 
 class Surveyor {
  public:
-  Surveyor(const StreamBytes& read, const DecoderLimits& limits)
-      : read_(read), reader_(limits), piece_(kPieceBytes) {}
+  Surveyor(const StreamBytes& read, std::optional<std::uint64_t> size, const DecoderLimits& limits)
+      : read_(read), size_(size), reader_(limits), piece_(kPieceBytes) {}
 
   Result<StreamSurvey> run() {
     using Event = ChunkReader::Event;
@@ -38,12 +38,22 @@ class Surveyor {
 
  private:
   Status read_on() {
-    reader_.skip();
+    if (size_) {
+      reader_.skip();
+      if (reader_.input_offset() > *size_) return truncated();
+    }
     const Result<std::size_t> got = read_(reader_.input_offset(), piece_);
     if (!got) return got.error();
     if (*got == 0) reader_.finish();
     reader_.push(Bytes(piece_).first(*got));
     return {};
+  }
+
+  /// A chunk says that it goes on behind the last byte.
+  Error truncated() const {
+    Error error = stream_error(ErrorCode::kTruncated, "§3.4", {"the stream ends before it is complete"});
+    error.byte_offset = size_;
+    return error;
   }
 
   void take(ChunkReader::Event event) {
@@ -111,6 +121,7 @@ class Surveyor {
   }
 
   const StreamBytes& read_;
+  const std::optional<std::uint64_t> size_;
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   StreamSurvey result_;
@@ -124,9 +135,10 @@ std::uint64_t StreamSurvey::frames() const {
   return gops.empty() ? 0 : gops.back().first_frame + gops.back().frame_count;
 }
 
-Result<StreamSurvey> survey(const StreamBytes& read, const DecoderLimits& limits) {
+Result<StreamSurvey> survey(const StreamBytes& read, std::optional<std::uint64_t> size,
+                            const DecoderLimits& limits) {
   try {
-    return Surveyor(read, limits).run();
+    return Surveyor(read, size, limits).run();
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
