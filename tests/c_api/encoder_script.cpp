@@ -115,6 +115,7 @@ tvg_encoder_options EncoderScript::read_options(unsigned how) {
     options.has_box = byte() & 1u;
     for (double& side : options.box_low) side = number();
     for (double& side : options.box_high) side = number();
+    options.max_meshes = byte() % 4u;
   }
   return options;
 }

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-// tvg_make_seeds STREAMS FOLDER: turns the valid streams of corpus/conformance into seeds for each fuzz target
-// in a folder of its name.
+// tvg_make_seeds STREAMS FOLDER: turns the valid streams of corpus/conformance into seeds for each fuzz
+// target in a folder of its name.
 namespace {
 
 namespace fs = std::filesystem;
@@ -73,7 +73,7 @@ bool write_encoder_seeds(const fs::path& folder) {
       {kCreate | 1 << 3, 13, 9},                                  // bits
       {kCreate | 2 << 3, 100, 3, kMetadata | 26 << 3, 'k', 'v'},  // step
       {kCreate | 4 << 3, 90, 40, 2, 3, 1, 1, 0, 0, 0, 9, 4},      // share, predictor, GOPs, order
-      {kCreate | 8 << 3, 2, 30, 30, 1, 180, 200, 180, 200, 180, 200, 180, 100, 180, 100, 180, 100},  // box
+      {kCreate | 8 << 3, 2, 30, 30, 1, 180, 200, 180, 200, 180, 200, 180, 100, 180, 100, 180, 100, 2},  // box
       {kCreate | 16 << 3, 5},  // a sink that gives up
   };
   std::vector<std::uint8_t> all;
