@@ -89,8 +89,8 @@ class Encoder {
   std::unique_ptr<State> state_;
 };
 
-/// Pushes a sequence through an encoder. Where the options have a box or a step, the source is read once, from
-/// where it stands, and not rewound. Otherwise a source that can be rewound is read twice, first for the
+/// Pushes a sequence through an encoder. Where the options have a box or a step, the source is read once,
+/// from where it stands, and not rewound. Otherwise a source that can be rewound is read twice, first for the
 /// bounding box of the whole sequence. Errors: kInvalidArgument for options out of range, kInvalidInput for
 /// geometry that cannot be encoded, and what source and sink return.
 Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
