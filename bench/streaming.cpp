@@ -16,7 +16,7 @@
 
 // tvg_streaming: how soon a stream shows its first frame, how soon a seek shows its frame, and whether it
 // plays without stalls. A screen is simulated by asking for a picture 60 times a second.
-namespace tvg::cli {
+namespace tvg::bench {
 
 namespace {
 
@@ -32,16 +32,16 @@ void wait_for_next_picture() {
 
 /// Asks for pictures until `number` (any frame where absent) is shown; the seconds it took. Asks more often
 /// than a screen, so as to measure the player and not the screen.
-double seconds_until_shown(Player& player, std::optional<std::uint64_t> number) {
+double seconds_until_shown(player::Player& player, std::optional<std::uint64_t> number) {
   constexpr double kGiveUp = 60;
   const double start = now();
   for (;;) {
-    const std::shared_ptr<const PlayerFrame> frame = player.update(now());
+    const std::shared_ptr<const player::PlayerFrame> frame = player.update(now());
     if (frame && (!number || frame->number == *number)) return now() - start;
-    const bool failed = player.snapshot().status == PlayerSnapshot::Status::kFailed;
+    const bool failed = player.snapshot().status == player::PlayerSnapshot::Status::kFailed;
     if (failed || now() - start > kGiveUp) {
-      throw ToolError(ExitStatus::kOther,
-                      failed ? player.snapshot().stream.message : "no frame came for 60 s");
+      throw cli::ToolError(cli::ExitStatus::kOther,
+                           failed ? player.snapshot().stream.message : "no frame came for 60 s");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
@@ -49,9 +49,9 @@ double seconds_until_shown(Player& player, std::optional<std::uint64_t> number) 
 
 void measure_seeks(const std::string& location, int count) {
   double start = now();
-  PlayerOptions options;
+  player::PlayerOptions options;
   options.playing = false;
-  Player player(open_stream_input(location), options);
+  player::Player player(player::open_stream_input(location), options);
   seconds_until_shown(player, std::nullopt);
   fmt::print("first frame             {:8.3f} s\n", now() - start);
   while (!player.snapshot().stream.frame_count && now() - start < 60) wait_for_next_picture();
@@ -62,8 +62,8 @@ void measure_seeks(const std::string& location, int count) {
   int on_hand = 0;
   for (int i = 0; i < count; ++i) {
     const std::uint64_t frame = std::uniform_int_distribution<std::uint64_t>(0, *frames - 1)(random);
-    const std::vector<FrameRun> buffered = player.snapshot().stream.buffered;
-    on_hand += std::any_of(buffered.begin(), buffered.end(), [frame](const FrameRun& run) {
+    const std::vector<player::FrameRun> buffered = player.snapshot().stream.buffered;
+    on_hand += std::any_of(buffered.begin(), buffered.end(), [frame](const player::FrameRun& run) {
       return frame >= run.first && frame < run.first + run.count;
     });
     player.seek(frame, now());
@@ -77,7 +77,7 @@ void measure_seeks(const std::string& location, int count) {
 }
 
 void measure_playback(const std::string& location, double seconds) {
-  Player player(open_stream_input(location));
+  player::Player player(player::open_stream_input(location));
   seconds_until_shown(player, std::nullopt);
   const double start = now();
   std::uint64_t pictures = 0;
@@ -86,7 +86,7 @@ void measure_playback(const std::string& location, double seconds) {
     ++pictures;
     wait_for_next_picture();
   }
-  const PlayerSnapshot snapshot = player.snapshot();
+  const player::PlayerSnapshot snapshot = player.snapshot();
   fmt::print(
       "played {:.1f} s at {:.3g} fps, {} pictures: {} stalls, {} frames late (waited {:.2f} s), {} dropped\n",
       now() - start, snapshot.rate, pictures, snapshot.stalls, snapshot.late, snapshot.waited_seconds,
@@ -112,7 +112,7 @@ int run(int argc, char** argv) {
   try {
     measure_seeks(location, seeks);
     if (seconds > 0) measure_playback(location, seconds);
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     fmt::print(stderr, "tvg_streaming: {}\n", error.what());
     return static_cast<int>(error.status());
   }
@@ -121,8 +121,8 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-}  // namespace tvg::cli
+}  // namespace tvg::bench
 
 int main(int argc, char** argv) {
-  return tvg::cli::run(argc, argv);
+  return tvg::bench::run(argc, argv);
 }

@@ -1,8 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/input_options.hpp"
 #include "cli/measure_options.hpp"
-#include "cli/watched_source.hpp"
-#include "encoder/live/live_source.hpp"
+#include "encoder/live/live_encoding.hpp"
 #include "encoder/live/stream_output.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
@@ -105,7 +104,7 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   return options;
 }
 
-/// How the frames of a live stream come: a pipe's when they come, others at their rate.
+/// How the frames come: a pipe's when they come, others at their rate.
 LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata) {
   LiveInput input;
   input.open_ended =
@@ -140,17 +139,22 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
       static_cast<double>(raw) / static_cast<double>(report.bytes));
 }
 
+Result<LiveReport> encode_whole(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
+                                const EncodeProgress& progress) {
+  const Result<EncodeReport> report = encode(source, options, sink, progress);
+  if (!report) return report.error();
+  return LiveReport{*report, std::nullopt};
+}
+
 void run_encode(const EncodeArguments& arguments) {
   EncodeOptions options = options_of(arguments);
-  files_of(arguments, arguments.measure.weights).check_output(arguments.output);
+  files_of(arguments, arguments.measure.weights()).check_output(arguments.output);
   const OpenedInput opened = open_input(arguments, arguments.live);
   options.first_frame = opened.first_frame;
   check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
   if (!arguments.quiet) print_notes(opened);
-  std::unique_ptr<LiveSource> live;
-  if (arguments.live) {
-    live = std::make_unique<LiveSource>(*opened.source, live_input(arguments, opened.source->metadata()));
-  }
+  std::optional<LiveInput> live;
+  if (arguments.live) live = live_input(arguments, opened.source->metadata());
 
   const std::unique_ptr<StreamOutput> output = open_stream_output(arguments.output, arguments.live);
   const auto sink = [&output](std::span<const std::uint8_t> bytes) {
@@ -161,17 +165,14 @@ void run_encode(const EncodeArguments& arguments) {
   const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
     bar.update(frames, total);
   };
-  WatchedSource source(live != nullptr ? *live : *opened.source);
-  const Result<EncodeReport> report = encode(source, options, sink, progress);
-  if (source.error()) throw tool_error(*source.error());
+  const Result<LiveReport> report = live ? encode_live(*opened.source, options, *live, sink, progress)
+                                         : encode_whole(*opened.source, options, sink, progress);
   if (!report) throw tool_error(input_names(arguments), report.error());
   output->finish();
 
   if (arguments.quiet) return;
   bar.clear();
-  if (live != nullptr && live->cut_short()) {
-    fmt::print(stderr, "note: {}: that frame is left out\n", *live->cut_short());
-  }
+  if (report->cut_short) fmt::print(stderr, "note: {}: that frame is left out\n", *report->cut_short);
   print_report(arguments, *report);
 }
 

@@ -119,9 +119,10 @@ StreamSummary summarize(const std::string& path, bool bits) {
   StreamSummary summary;
   StreamReader reader(path);
   summary.file = reader.name();
-  Result<StreamSurvey> stream = survey([&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+  const auto read = [&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
     return Result<std::size_t>(reader.read_from(offset, bytes));
-  });
+  };
+  Result<StreamSurvey> stream = survey(read, reader.size());
   if (!stream) throw tool_error(reader.name(), stream.error());
   summary.stream = std::move(*stream);
   summary.damages = summary.stream.findings.size();
@@ -252,6 +253,7 @@ void add_info_command(CLI::App& tool) {
                    "decode the stream to tell what x, y and z take and how many vertices are flagged");
   command.add_flag("--json", arguments->json, "print everything as JSON");
   command.callback([arguments] {
+    static_cast<void>(parse_rate(arguments->fps));
     if (has_scene_info(arguments->input)) {
       print_scene_info(arguments->input, arguments->fps, arguments->json);
       return;

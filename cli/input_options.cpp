@@ -24,7 +24,11 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
   command.add_option("--mesh", arguments.meshes,
                      "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
-  command.add_option("--skeleton", arguments.skeleton,
+  add_skeleton_option(command, arguments.skeleton);
+}
+
+void add_skeleton_option(CLI::App& command, std::string& skeleton) {
+  command.add_option("--skeleton", skeleton,
                      "the joints of a cache or sequence: a BVH file (frame by frame where it has as many, "
                      "else by time), or JSON as tvg_corpus writes it");
 }
@@ -37,23 +41,32 @@ InputFiles files_of(const InputArguments& arguments, const std::string& weights)
   return files;
 }
 
+OpenedSource open_with_joints(SourceSpec spec, const std::string& skeleton) {
+  const bool motion_capture = has_suffix(skeleton, ".bvh");
+  if (motion_capture) spec.skeleton = skeleton;
+  OpenedSource opened = open_source(spec);
+  if (skeleton.empty() || motion_capture) return opened;
+  opened.source = with_joints(std::move(opened.source), read_skeleton_file(skeleton), skeleton,
+                              spec.frames ? spec.frames->first : 0);
+  return opened;
+}
+
+JointTracks read_stream_joints(const std::string& skeleton) {
+  if (has_suffix(skeleton, ".bvh")) fail_option("--skeleton", skeleton, "a .tvg takes its joints from JSON");
+  return read_skeleton_file(skeleton);
+}
+
 OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
   if (!arguments.fps.empty()) static_cast<void>(parse_rate(arguments.fps));
   OpenedInput opened;
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
-  const bool motion_capture = has_suffix(arguments.skeleton, ".bvh");
-  if (motion_capture) spec.skeleton = arguments.skeleton;
   spec.open_ended = open_ended;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     opened.first_frame = spec.frames->first;
   }
-  static_cast<OpenedSource&>(opened) = open_source(spec);
-  if (!arguments.skeleton.empty() && !motion_capture) {
-    opened.source = with_joints(std::move(opened.source), read_skeleton_file(arguments.skeleton),
-                                arguments.skeleton, opened.first_frame);
-  }
+  static_cast<OpenedSource&>(opened) = open_with_joints(std::move(spec), arguments.skeleton);
   return opened;
 }
 

@@ -27,6 +27,9 @@ struct InputArguments {
 /// is left to the command: what it means differs. `others`: what the command takes beside these inputs.
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others = "");
 
+/// Declares --skeleton alone.
+void add_skeleton_option(CLI::App& command, std::string& skeleton);
+
 /// All files that the options name or imply, `weights` (may be empty) among them, so that no output
 /// overwrites one.
 InputFiles files_of(const InputArguments& arguments, const std::string& weights);
@@ -35,8 +38,16 @@ struct OpenedInput : OpenedSource {
   std::uint64_t first_frame = 0;  ///< of --frames
 };
 
-/// Opens the inputs, with the joints of --skeleton. Throws as open_source(), read_skeleton_file() and
-/// with_joints() do. `open_ended`: see SourceSpec.
+/// Opens a source with the joints of a file, as --skeleton takes it; without where `skeleton` is empty.
+/// Throws as open_source(), read_skeleton_file() and with_joints() do.
+OpenedSource open_with_joints(SourceSpec spec, const std::string& skeleton);
+
+/// The joints of a .tvg, frames by its numbers, from a file as --skeleton takes it. Throws ToolError: kUsage
+/// for a BVH file, and as read_skeleton_file() does.
+JointTracks read_stream_joints(const std::string& skeleton);
+
+/// Opens the inputs, with the joints of --skeleton. Throws as open_with_joints() does. `open_ended`: see
+/// SourceSpec.
 OpenedInput open_input(const InputArguments& arguments, bool open_ended);
 
 /// The inputs, for messages: "hand.obj, hand.pc2".

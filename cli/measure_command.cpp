@@ -4,7 +4,6 @@
 #include "cli/measure_report.hpp"
 #include "cli/measured_ply.hpp"
 #include "cli/number_option.hpp"
-#include "cli/watched_source.hpp"
 #include "encoder/importers/skeleton_file.hpp"
 #include "tool/frame_pattern.hpp"
 #include "tool/measured_frame.hpp"
@@ -40,7 +39,7 @@ struct MeasureCommandArguments {
   bool quiet = false;
 #ifdef TVG_HAS_PLAYER
   std::string picture;
-  LookArguments look;
+  player::LookArguments look;
 #endif
 
   /// Whether one frame is to be shown.
@@ -66,11 +65,8 @@ OpenedInput open(const InputArguments& input) {
   OpenedInput opened;
   opened.source = std::make_unique<StreamSource>(input.inputs.front());
   if (input.skeleton.empty()) return opened;
-  if (has_suffix(input.skeleton, ".bvh")) {
-    fail_option("--skeleton", input.skeleton, "a .tvg takes its joints from JSON");
-  }
   opened.source =
-      with_joints(std::move(opened.source), read_skeleton_file(input.skeleton), input.skeleton, 0);
+      with_joints(std::move(opened.source), read_stream_joints(input.skeleton), input.skeleton, 0);
   return opened;
 }
 
@@ -82,7 +78,7 @@ class MeasureJob {
         importance_(importance_of(arguments.measure)),
         pattern_(parse_frame_pattern(arguments.ply)),
 #ifdef TVG_HAS_PLAYER
-        look_(parse_look(arguments.look)),
+        look_(player::parse_look(arguments.look)),
 #endif
         bar_("measuring", arguments.quiet) {
     check_outputs();
@@ -95,15 +91,14 @@ class MeasureJob {
   void run() {
     MeasureReport report = empty_report();
     std::vector<std::uint8_t> flags;  // of the GOP before
-    WatchedSource source(*opened_.source);
-    const Status status = measure_gops(source, arguments_.gop, importance_, [&](const GopMeasure& gop) {
-      report.gops.push_back(statistics_of(gop, flags));
-      flags = gop.measure.flags;
-      show(gop);
-      bar_.update(gop.first_frame + gop.frames.size(), opened_.source->frame_count());
-      return Status();
-    });
-    if (source.error()) throw tool_error(*source.error());
+    const Status status =
+        measure_gops(*opened_.source, arguments_.gop, importance_, [&](const GopMeasure& gop) {
+          report.gops.push_back(statistics_of(gop, flags));
+          flags = gop.measure.flags;
+          show(gop);
+          bar_.update(gop.first_frame + gop.frames.size(), opened_.source->frame_count());
+          return Status();
+        });
     if (!status.ok()) throw tool_error(input_names(arguments_.input), status.error());
     bar_.clear();
     if (shown_frame_ && !shown_) throw no_such_frame(report);
@@ -123,7 +118,7 @@ class MeasureJob {
 #endif
       );
     }
-    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights);
+    const InputFiles inputs = files_of(arguments_.input, arguments_.measure.weights());
     inputs.check_output(arguments_.ply);
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty() && !has_suffix(arguments_.picture, ".png")) {
@@ -182,8 +177,8 @@ class MeasureJob {
     }
 #ifdef TVG_HAS_PLAYER
     if (!arguments_.picture.empty()) {
-      draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
-                           arguments_.measure.criteria, look_);
+      player::draw_measure_picture(arguments_.picture, *opened_.source, measured_frame(gop, index, first),
+                                   arguments_.measure.criteria, look_);
     }
 #endif
   }
@@ -196,7 +191,7 @@ class MeasureJob {
   const Importance importance_;
   const std::optional<FramePattern> pattern_;  // of --ply
 #ifdef TVG_HAS_PLAYER
-  const Look look_;
+  const player::Look look_;
 #endif
   ProgressBar bar_;
   OpenedInput opened_;

@@ -1,15 +1,15 @@
 #include "cli/measure_options.hpp"
 
+#include "cli/criterion_options.hpp"
 #include "cli/number_option.hpp"
-#include "encoder/importers/vertex_weights.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace tvg::cli {
@@ -48,51 +48,36 @@ bool has_criterion(const Importance& importance, std::string_view name) {
                      [name](const CriterionWeight& term) { return term.name == name; });
 }
 
-std::array<double, 3> parse_viewpoint(const std::string& text) {
-  std::array<double, 3> place{};
-  const char* at = text.data();
-  const char* end = text.data() + text.size();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [after, error] = std::from_chars(at, end, place[k]);
-    const bool separated = k < 2 ? after != end && *after == ',' : after == end;
-    if (error != std::errc() || !separated || !std::isfinite(place[k])) {
-      fail_usage(fmt::format("--viewpoint {}: write a place in the mesh's units as 0,1.5,-4", text));
-    }
-    at = after + 1;
-  }
-  return place;
+bool is_for(const CriterionOption& option, const Importance& importance) {
+  return std::any_of(option.criteria.begin(), option.criteria.end(),
+                     [&](std::string_view name) { return has_criterion(importance, name); });
 }
 
-/// An option that only matters to some criteria, and whether it was given.
-struct Dependent {
-  const char* option;
-  bool given;
-  std::vector<std::string_view> criteria;
-};
-
-void check_dependents(const MeasureArguments& arguments, const Importance& importance) {
-  const std::array<Dependent, 6> dependents = {{
-      {"--alpha", arguments.alpha.has_value(), {"curv", "curvature-norm"}},
-      {"--skel-alpha", arguments.skel_alpha.has_value(), {"skel"}},
-      {"--skel-threshold", arguments.skel_threshold.has_value(), {"skel"}},
-      {"--skel-region", !arguments.skel_region.empty(), {"skel"}},
-      {"--viewpoint", !arguments.viewpoint.empty(), {"distance"}},
-      {"--weights", !arguments.weights.empty(), {"weights"}},
-  }};
-  for (const Dependent& dependent : dependents) {
-    const bool used = std::any_of(dependent.criteria.begin(), dependent.criteria.end(),
-                                  [&](std::string_view name) { return has_criterion(importance, name); });
-    if (!dependent.given || used) continue;
-    fail_usage(fmt::format("{} is for the criterion {}, which --measure {} does not use", dependent.option,
-                           fmt::join(dependent.criteria, " or "), arguments.criteria));
+void set_option(const CriterionOption& option, const CostArguments& arguments, Importance& importance) {
+  const auto given = arguments.options.find(option.name);
+  const bool used = is_for(option, importance);
+  if (given != arguments.options.end()) {
+    if (used) return option.set(given->second, importance);
+    fail_usage(fmt::format("{} is for the criterion {}, which --measure {} does not use", option.name,
+                           fmt::join(option.criteria, " or "), arguments.criteria));
   }
+  if (!used || option.missing == nullptr) return;
+  fail_usage(fmt::format("--measure {}: {}", arguments.criteria, option.missing));
 }
 
 }  // namespace
 
+bool CostArguments::any() const {
+  return criteria != "curv" || !options.empty() || smoothing;
+}
+
+std::string CostArguments::weights() const {
+  const auto given = options.find("--weights");
+  return given != options.end() ? given->second : "";
+}
+
 bool MeasureArguments::any() const {
-  return criteria != "curv" || !important.empty() || threshold || alpha || skel_alpha || skel_threshold ||
-         !skel_region.empty() || !viewpoint.empty() || !weights.empty() || !lookahead.empty() || smoothing;
+  return CostArguments::any() || !important.empty() || threshold || !lookahead.empty();
 }
 
 std::vector<CriterionWeight> parse_criteria(const std::string& text) {
@@ -119,45 +104,36 @@ std::vector<CriterionWeight> parse_criteria(const std::string& text) {
   return criteria;
 }
 
-void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
+void add_cost_options(CLI::App& command, CostArguments& arguments) {
   command
       .add_option("--measure", arguments.criteria,
                   fmt::format("what makes vertices important: criteria with weights, as curv+0.5*skel, or as "
                               "=-distance where the first is negative; {}",
                               criterion_names()))
       ->capture_default_str();
-  auto* share = command.add_option("--important", arguments.important,
-                                   "share of important vertices where there are two resolutions (default "
-                                   "35%)");
-  const auto into = [](std::optional<double>& place) { return [&place](double value) { place = value; }; };
-  // Negative weights make negative costs, so a threshold may be any number.
-  add_number(command, "--important-above", {}, into(arguments.threshold),
-             "instead: vertices whose cost is above this")
-      ->excludes(share);
-  add_number(command, "--alpha", {0, 1}, into(arguments.alpha),
-             fmt::format("of curv: weight of the change of curvature against its mean (default {})",
-                         Importance().alpha));
-  add_number(command, "--skel-alpha", {0, 1}, into(arguments.skel_alpha),
-             fmt::format("of skel: value at joints that bend; elsewhere it is 1 minus this (default {})",
-                         Importance().skel_alpha));
-  add_number(command, "--skel-threshold", {0}, into(arguments.skel_threshold),
-             "of skel: degrees per frame above which a joint bends (default: a quarter of the strongest "
-             "joint's, at least 0.1)");
-  command
-      .add_option(
-          "--skel-region", arguments.skel_region,
-          "of skel: the joint of a vertex is the nearest (default) or that of its largest skin weight "
-          "(weights)")
-      ->check(CLI::IsMember({"nearest", "weights"}));
-  command.add_option("--viewpoint", arguments.viewpoint,
-                     "of distance: where it is measured from, as 0,1.5,-4");
-  command.add_option("--weights", arguments.weights,
-                     "of weights: a number per vertex, one on each line, or a .npy");
+  for (const CriterionOption& option : criterion_options()) {
+    const auto keep = [&arguments, name = option.name](const std::string& text) {
+      arguments.options[name] = text;
+    };
+    command.add_option_function<std::string>(option.name, keep, option.help)->type_name(option.type);
+  }
   command
       .add_option(
           "--smooth", arguments.smoothing,
           "times the cost is averaged over neighbours (default 0): marks in one piece cost fewer bytes")
       ->check(CLI::Range(0U, kMaxSmoothing));
+}
+
+void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
+  add_cost_options(command, arguments);
+  auto* share = command.add_option("--important", arguments.important,
+                                   "share of important vertices where there are two resolutions (default "
+                                   "35%)");
+  // Negative weights make negative costs, so a threshold may be any number.
+  add_number(
+      command, "--important-above", {}, [&arguments](double value) { arguments.threshold = value; },
+      "instead: vertices whose cost is above this")
+      ->excludes(share);
   command
       .add_option(
           "--lookahead", arguments.lookahead,
@@ -166,34 +142,36 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
       ->check(CLI::IsMember({"gop", "0"}));
 }
 
-Importance importance_of(const MeasureArguments& arguments) {
+Importance importance_of(const CostArguments& arguments) {
   Importance importance;
   importance.criteria = parse_criteria(arguments.criteria);
-  check_dependents(arguments, importance);
-  if (!arguments.important.empty()) importance.share = parse_share(arguments.important);
-  importance.threshold = arguments.threshold;
-  importance.alpha = arguments.alpha.value_or(importance.alpha);
-  importance.skel_alpha = arguments.skel_alpha.value_or(importance.skel_alpha);
-  importance.skel_threshold = arguments.skel_threshold;
-  if (arguments.skel_region == "weights") importance.skel_region = JointRegion::kHeaviest;
   importance.smoothing = arguments.smoothing.value_or(importance.smoothing);
-  importance.low_delay = arguments.lookahead == "0";
-  if (has_criterion(importance, "distance")) {
-    if (arguments.viewpoint.empty()) {
-      fail_usage("--measure distance: say from where with --viewpoint, as --viewpoint 0,1.5,-4");
-    }
-    importance.viewpoint = parse_viewpoint(arguments.viewpoint);
-  }
-  if (has_criterion(importance, "weights")) {
-    if (arguments.weights.empty()) {
-      fail_usage("--measure weights: name the file of the weights with --weights (text or .npy)");
-    }
-    importance.weights = read_vertex_weights(arguments.weights);
-  }
+  for (const CriterionOption& option : criterion_options()) set_option(option, arguments, importance);
   return importance;
 }
 
-void check_measure(const MeasureArguments& arguments, const Importance& importance, const FrameSource& source,
+Importance importance_of(const MeasureArguments& arguments) {
+  Importance importance = importance_of(static_cast<const CostArguments&>(arguments));
+  if (!arguments.important.empty()) importance.share = parse_share(arguments.important);
+  importance.threshold = arguments.threshold;
+  importance.low_delay = arguments.lookahead == "0";
+  return importance;
+}
+
+std::string words_for(const CostArguments& arguments) {
+  if (!arguments.any()) return arguments.criteria + ", the default";
+  std::string words = arguments.criteria;
+  for (const CriterionOption& option : criterion_options()) {
+    const auto given = arguments.options.find(option.name);
+    if (given == arguments.options.end()) continue;
+    words +=
+        fmt::format(", {} {}", option.name + 2, std::filesystem::path(given->second).filename().string());
+  }
+  if (arguments.smoothing) words += fmt::format(", smooth {}", *arguments.smoothing);
+  return words;
+}
+
+void check_measure(const CostArguments& arguments, const Importance& importance, const FrameSource& source,
                    const std::vector<std::string>& inputs) {
   if (uses_skeleton(importance) && source.skeleton().empty()) {
     fail_usage(
@@ -201,12 +179,12 @@ void check_measure(const MeasureArguments& arguments, const Importance& importan
                     "one, and --skeleton names the file of one for other inputs",
                     arguments.criteria, fmt::join(inputs, ", ")));
   }
-  if (importance.skel_region == JointRegion::kHeaviest && source.skeleton().heaviest_joint.empty()) {
+  if (importance.skel.region == JointRegion::kHeaviest && source.skeleton().heaviest_joint.empty()) {
     fail_usage(fmt::format("--skel-region weights: {} has no skin weights; use --skel-region nearest",
                            fmt::join(inputs, ", ")));
   }
   if (has_criterion(importance, "weights") && importance.weights.size() != source.mesh().vertex_count) {
-    fail_usage(fmt::format("--weights {}: {} numbers for the mesh's {} vertices", arguments.weights,
+    fail_usage(fmt::format("--weights {}: {} numbers for the mesh's {} vertices", arguments.weights(),
                            importance.weights.size(), source.mesh().vertex_count));
   }
 }

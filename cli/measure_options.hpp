@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,25 +15,31 @@ class App;
 // What a user says about the measure, for every command that uses it.
 namespace tvg::cli {
 
-/// Values of the options as typed.
-struct MeasureArguments {
+/// What the cost of a vertex is: values of the options as typed.
+struct CostArguments {
   std::string criteria = "curv";
+  std::map<std::string, std::string> options;  ///< of criterion_options(), by their names: those given
+  std::optional<std::uint32_t> smoothing;
+
+  /// Whether any option was given.
+  bool any() const;
+  /// The file of --weights; empty where none was given.
+  std::string weights() const;
+};
+
+/// The cost, and which vertices it marks.
+struct MeasureArguments : CostArguments {
   std::string important;
   std::optional<double> threshold;
-  std::optional<double> alpha;
-  std::optional<double> skel_alpha;
-  std::optional<double> skel_threshold;
-  std::string skel_region;
-  std::string viewpoint;
-  std::string weights;
   std::string lookahead;
-  std::optional<std::uint32_t> smoothing;
 
   /// Whether any option was given.
   bool any() const;
 };
 
-/// Declares --measure, --important and the like; `arguments` must outlive the parsing.
+/// Declares --measure, the options of its criteria and --smooth; `arguments` must outlive the parsing.
+void add_cost_options(CLI::App& command, CostArguments& arguments);
+/// These, and --important and the like.
 void add_measure_options(CLI::App& command, MeasureArguments& arguments);
 
 /// "curv+0.5*skel-velocity": criteria and their weights. Throws ToolError (kUsage) that names the criteria.
@@ -40,11 +47,15 @@ std::vector<CriterionWeight> parse_criteria(const std::string& text);
 
 /// What the options mean together; reads the file of --weights. Throws ToolError: kUsage for options that are
 /// wrong or do not belong to the criteria chosen, and as read_vertex_weights() does.
+Importance importance_of(const CostArguments& arguments);
 Importance importance_of(const MeasureArguments& arguments);
+
+/// The cost in a few words: "curv, the default", "curv+0.5*skel, smooth 2".
+std::string words_for(const CostArguments& arguments);
 
 /// Throws ToolError (kUsage) that names the option at fault unless the criteria find what they need in the
 /// source that `inputs` name.
-void check_measure(const MeasureArguments& arguments, const Importance& importance, const FrameSource& source,
+void check_measure(const CostArguments& arguments, const Importance& importance, const FrameSource& source,
                    const std::vector<std::string>& inputs);
 
 }  // namespace tvg::cli

@@ -89,8 +89,8 @@ void print_joints(const MeasureReport& report) {
                joint.angle_sum, per_frame(joint.angle_sum, steps + 1), joint.strongest, verdict);
   }
   fmt::print("  dynamic: above {}\n",
-             report.importance.skel_threshold
-                 ? fmt::format("{:g} degrees per frame", *report.importance.skel_threshold)
+             report.importance.skel.threshold
+                 ? fmt::format("{:g} degrees per frame", *report.importance.skel.threshold)
                  : "a quarter of the strongest joint's sum, and above 0.1 degrees per frame");
 }
 
@@ -104,7 +104,7 @@ bool has_joints(const MeasureReport& report) {
 
 nlohmann::json json_of(const Importance& importance, const std::string& criteria) {
   nlohmann::json json = {{"criteria", criteria},
-                         {"alpha", importance.alpha},
+                         {"alpha", importance.curv.alpha},
                          {"smoothing", importance.smoothing},
                          {"low_delay", importance.low_delay}};
   if (importance.threshold) {

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kMostSeconds = 1e6;
 
-struct PlayArguments : LookArguments {
+struct PlayArguments : player::LookArguments {
+  ShownMeasureArguments measure;
   std::string location;
   std::string fps;
   std::string screenshot;
@@ -30,10 +31,11 @@ struct PlayArguments : LookArguments {
   bool paused = false;
 };
 
-PlayOptions options_of(const PlayArguments& arguments) {
-  PlayOptions options;
-  static_cast<Look&>(options) = parse_look(arguments);
+player::PlayOptions options_of(const PlayArguments& arguments) {
+  player::PlayOptions options;
+  static_cast<player::Look&>(options) = player::parse_look(arguments);
   options.open_source = source_opener();
+  options.measure = shown_measure(arguments.measure, true);
   options.location = arguments.location;
   if (!arguments.fps.empty()) options.rate = parse_rate(arguments.fps);
   options.speed = arguments.speed;
@@ -44,6 +46,8 @@ PlayOptions options_of(const PlayArguments& arguments) {
   InputFiles inputs;
   inputs.add(options.location);
   inputs.add(with_scene_files(options.reference));
+  inputs.add(arguments.measure.cost.weights());
+  inputs.add(arguments.measure.skeleton);
   inputs.check_output(arguments.screenshot);
   inputs.check_output(arguments.report);
   options.screenshot = arguments.screenshot;
@@ -62,7 +66,7 @@ void add_play_command(CLI::App& tool) {
       "input", arguments->location,
       "a .tvg, an http or https URL of one, or - for standard input; a file can also be dropped on "
       "the window");
-  add_look_options(command, *arguments);
+  add_look_options(command, *arguments, arguments->measure);
   add_count(
       command, "--start", [arguments](std::uint64_t frame) { arguments->start = frame; },
       "the first frame to show, counted from 0");
@@ -71,7 +75,7 @@ void add_play_command(CLI::App& tool) {
   command.add_option("--fps", arguments->fps,
                      "frames per second, instead of the stream's own: 30, 30000/1001");
   add_number(
-      command, "--speed", {PlaybackClock::kSlowest, PlaybackClock::kFastest},
+      command, "--speed", {player::PlaybackClock::kSlowest, player::PlaybackClock::kFastest},
       [arguments](double value) { arguments->speed = value; }, "times the frame rate")
       ->default_str("1");
   command.add_option("--memory", arguments->memory_mb, "MiB of decoded frames held at most")
@@ -83,7 +87,7 @@ void add_play_command(CLI::App& tool) {
   command.add_option("--screenshot", arguments->screenshot,
                      "save the window with the first frame as .png, and close");
   command.add_option("--report", arguments->report, "write how playing went as JSON, when the window closes");
-  command.callback([arguments] { run_play_window(options_of(*arguments)); });
+  command.callback([arguments] { player::run_play_window(options_of(*arguments)); });
 }
 
 }  // namespace tvg::cli

@@ -2,17 +2,48 @@
 #include "cli/look_options.hpp"
 #include "cli/open_source_files.hpp"
 #include "encoder/importers/scene_file.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "player/render/render_job.hpp"
 #include "player/render/render_options.hpp"
 #include "tool/input_files.hpp"
+#include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
 namespace tvg::cli {
 
+namespace {
+
+struct RenderCommandArguments : player::RenderArguments {
+  ShownMeasureArguments measure;
+};
+
+player::RenderOptions options_of(const RenderCommandArguments& arguments) {
+  player::RenderOptions options = player::parse_render_arguments(arguments);
+  if (arguments.measure.any() && options.overlay != player::Overlay::kCost) {
+    throw ToolError(ExitStatus::kUsage,
+                    "--measure and what goes with it: add --overlay cost, which shows the measure");
+  }
+  options.open_source = source_opener();
+  options.open_inputs = source_opener(arguments.measure.skeleton);
+  options.measure = shown_measure(arguments.measure, player::is_stream(options.inputs));
+  return options;
+}
+
+InputFiles files_of(const player::RenderOptions& options, const ShownMeasureArguments& measure) {
+  InputFiles inputs;
+  inputs.add(with_scene_files(options.inputs));
+  inputs.add(with_scene_files(options.reference));
+  inputs.add(measure.cost.weights());
+  inputs.add(measure.skeleton);
+  return inputs;
+}
+
+}  // namespace
+
 void add_render_command(CLI::App& tool) {
-  auto arguments = std::make_shared<RenderArguments>();
+  auto arguments = std::make_shared<RenderCommandArguments>();
   CLI::App& command = *tool.add_subcommand("render", "Draw frames to pictures or a clip; needs no display");
   command
       .add_option("input", arguments->inputs,
@@ -27,20 +58,16 @@ void add_render_command(CLI::App& tool) {
   command.add_option("--sheet", arguments->sheet, "columns and rows of a contact sheet: 4x3");
   command.add_option("--scale", arguments->scale, "value of the last colour of --overlay cost or error");
   command.add_flag("--side-by-side", arguments->side_by_side, "draw the reference at the left");
-  add_look_options(command, *arguments);
+  add_look_options(command, *arguments, arguments->measure);
   command.add_flag("--no-labels", arguments->no_labels, "draw no text and no legend");
   command.add_option("--fps", arguments->fps, "frames per second of a clip: 30, 30000/1001");
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] {
-    RenderOptions options = parse_render_arguments(*arguments);
-    options.open_source = source_opener();
-    InputFiles inputs;
-    inputs.add(with_scene_files(options.inputs));
-    inputs.add(with_scene_files(options.reference));
-    inputs.check_output(options.output);
-    render(options);
+    const player::RenderOptions options = options_of(*arguments);
+    files_of(options, arguments->measure).check_output(options.output);
+    player::render(options);
   });
 }
 

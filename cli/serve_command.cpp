@@ -15,7 +15,7 @@ namespace tvg::cli {
 namespace {
 
 struct ServeArguments {
-  ServerOptions options;
+  server::ServerOptions options;
   double timeout = 30;
   bool no_live = false;
   bool quiet = false;
@@ -28,11 +28,11 @@ void run_serve(const ServeArguments& arguments) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
-  ServerOptions options = arguments.options;
+  server::ServerOptions options = arguments.options;
   options.live = !arguments.no_live;
   options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout));
   if (!arguments.quiet) options.log = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
-  StreamServer server(options);
+  server::StreamServer server(options);
   server.start();
   fmt::print("{}/\n", server.url());
   if (options.live && !arguments.quiet) {
@@ -49,7 +49,7 @@ void run_serve(const ServeArguments& arguments) {
 
 void add_serve_command(CLI::App& tool) {
   auto arguments = std::make_shared<ServeArguments>();
-  ServerOptions& options = arguments->options;
+  server::ServerOptions& options = arguments->options;
   CLI::App& command = *tool.add_subcommand("serve", "Offer a folder and live streams over HTTP");
   command.add_option("folder", options.folder, "what to serve; names that begin with a dot are left out")
       ->required();
@@ -61,13 +61,13 @@ void add_serve_command(CLI::App& tool) {
                   "address to listen on; 0.0.0.0 lets everyone who reaches this machine read and publish")
       ->capture_default_str();
   command.add_option("--max-clients", options.max_clients, "connections at a time; the next gets 503")
-      ->check(CLI::Range(std::size_t{1}, kMostClients))
+      ->check(CLI::Range(std::size_t{1}, server::kMostClients))
       ->capture_default_str();
   command
       .add_option(
           "--max-per-address", options.max_per_address,
           "of these, connections from one address; a reverse proxy is one, so give it as many as clients")
-      ->check(CLI::Range(std::size_t{1}, kMostClients))
+      ->check(CLI::Range(std::size_t{1}, server::kMostClients))
       ->capture_default_str();
   command.add_option("--max-live-streams", options.max_live_streams, "streams published at a time")
       ->check(CLI::Range(1, 1000))

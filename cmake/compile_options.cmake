@@ -41,7 +41,12 @@ function(tvg_without_exceptions target)
     target_compile_definitions(${target} PRIVATE _HAS_EXCEPTIONS=0)
     target_compile_options(${target} PRIVATE /GR-)
   else()
-    target_compile_options(${target} PRIVATE -fno-exceptions -fno-rtti -ffunction-sections -fdata-sections)
+    target_compile_options(${target} PRIVATE -fno-exceptions -ffunction-sections -fdata-sections)
+    # A sanitizer that checks types at run time takes objects made without them for broken ones, where another part of
+    # the program has types.
+    if(NOT TVG_SANITIZE)
+      target_compile_options(${target} PRIVATE -fno-rtti)
+    endif()
   endif()
 endfunction()
 

@@ -59,7 +59,7 @@ if(EMSCRIPTEN)
   target_link_libraries(tvg_wasm PRIVATE ${tvg_c_stands_on})
   target_include_directories(tvg_wasm PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_options(tvg_wasm PRIVATE --no-entry -sMODULARIZE=1 -sEXPORT_NAME=createTvg -sALLOW_MEMORY_GROWTH=1
-    -sFILESYSTEM=0 -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString)
+    -sFILESYSTEM=0 -sMALLOC=emmalloc -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=UTF8ToString)
   set_target_properties(tvg_wasm PROPERTIES OUTPUT_NAME tvg)
   tvg_compile_options(tvg_wasm)
 endif()

@@ -63,9 +63,8 @@ Decoder::Event Decoder::State::take_chunk() {
 
 // format-spec §4.3
 std::optional<Decoder::Event> Decoder::State::take_mesh() {
-  Result<std::shared_ptr<const CodedMesh>> decoded = decode_mesh_read();
-  if (!decoded) {
-    Error& cause = decoded.error();
+  if (Status decoded = decode_mesh_read(); !decoded.ok()) {
+    Error cause = decoded.error();
     cause.byte_offset = reader.chunk_offset();
     if (cause.code == ErrorCode::kOutOfMemory) {
       reader.fail(std::move(cause));
@@ -75,23 +74,27 @@ std::optional<Decoder::Event> Decoder::State::take_mesh() {
     }
     return std::nullopt;
   }
-  const bool noted =
-      map_.note({{.offset = reader.chunk_offset(), .kind = IndexEntry::Kind::kMesh}, frames_.position()});
-  if (!noted ||
-      !meshes_.put(reader.mesh_id(), reader.chunk_offset(), *decoded, reader.head().limits.meshes)) {
+  if (!map_.note({{.offset = reader.chunk_offset(), .kind = IndexEntry::Kind::kMesh}, frames_.position()})) {
     reader.fail(out_of_memory());
     return std::nullopt;
   }
-  return show(std::move(*decoded)) ? std::optional(Event::kMesh) : std::nullopt;
+  return show(mesh_in_force(reader.mesh_id())) ? std::optional(Event::kMesh) : std::nullopt;
 }
 
-/// The mesh whose chunk was just read: one that is in force already is not decoded again.
-Result<std::shared_ptr<const CodedMesh>> Decoder::State::decode_mesh_read() const {
-  if (const auto* const known = meshes_.find(reader.mesh_id())) return known->value;
+/// Decodes the mesh whose chunk was just read, unless it is in force already.
+Status Decoder::State::decode_mesh_read() {
+  if (mesh_in_force(reader.mesh_id()) != nullptr) return {};
   Result<CodedMesh> decoded = decode_mesh(reader.mesh(), reader.mesh_id());
   if (!decoded) return decoded.error();
   if (!can_allocate(kSmallThings)) return out_of_memory();
-  return std::shared_ptr<const CodedMesh>(std::make_shared<CodedMesh>(std::move(*decoded)));
+  reader.keep(std::make_shared<const CodedMesh>(std::move(*decoded)));
+  return {};
+}
+
+/// A mesh as it was decoded; null where none of this name is in force.
+std::shared_ptr<const CodedMesh> Decoder::State::mesh_in_force(std::uint32_t id) const {
+  const ChunkWindow::Entry* const entry = reader.meshes().find(id);
+  return entry == nullptr ? nullptr : std::static_pointer_cast<const CodedMesh>(entry->content);
 }
 
 /// Makes a mesh that of the frames to come; false where it is already.
@@ -106,10 +109,7 @@ std::optional<Decoder::Event> Decoder::State::begin_gop() {
   const GopHeader& header = reader.gop();
   const std::uint64_t missing = frames_.meet_gop(header.first_frame, header.frame_count, indexed_place());
   if (is_on_the_way(missing)) return pass_gop(missing);
-  const auto* const in_force = meshes_.find(header.mesh);
-  if (in_force == nullptr)
-    return reject_gop(missing, malformed("§4.5.1", "the mesh of a GOP is not in force"));
-  const bool another_mesh = show(in_force->value);
+  const bool another_mesh = show(mesh_in_force(header.mesh));
   if (Status begun = gop.begin(header, mesh); !begun.ok()) return reject_gop(missing, begun.error());
   std::optional<Event> told = check_place();
   if (frames_.has_unknown()) told = tell(frames_.lose(missing, frames_.take_cause({})));

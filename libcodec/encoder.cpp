@@ -76,7 +76,7 @@ class Encoder::State {
         writer_(std::move(sink)),
         queue_(std::max(1u, options_->threads)),
         with_joints_(uses_skeleton(options_->importance)) {
-    report_.box_of_each_gop = !options_->box;
+    report_.box_of_each_gop = !options_->box && !options_->step;
   }
 
   Status set_mesh(const Mesh& mesh, const Skeleton& skeleton) {
@@ -91,8 +91,7 @@ class Encoder::State {
     return lasting([&] {
       std::vector<float> kept;
       if (with_joints_) kept.assign(joints.begin(), joints.end());
-      gop_box_.extend(frame_box.low()[0], frame_box.low()[1], frame_box.low()[2]);
-      gop_box_.extend(frame_box.high()[0], frame_box.high()[1], frame_box.high()[2]);
+      gop_box_ = around(gop_box_, frame_box);
       std::optional<GopContent> gop =
           cutter_->add(FramePositions(positions.begin(), positions.end()), std::move(kept));
       if (gop) {
@@ -153,6 +152,10 @@ class Encoder::State {
     if (Status status = check_frame(positions, number); !status.ok()) return status;
     if (options_->box && !holds(*options_->box, frame_box))
       return at_frame(number, invalid_input("the frame leaves the box that was declared"));
+    if (options_->step && !options_->box) {
+      const Result<Lattice> lattice = lattice_for(around(gop_box_, frame_box));
+      if (!lattice) return at_frame(number, lattice.error());
+    }
     return with_joints_ ? check_joints(joints, stretch_->skeleton, number) : Status();
   }
 
@@ -192,8 +195,7 @@ class Encoder::State {
 
   Status enqueue(GopContent gop) {
     const BoundingBox gop_box = std::exchange(gop_box_, BoundingBox());
-    const Result<Lattice> lattice = lattice_over(options_->box.value_or(gop_box), options_->fine_bits,
-                                                 options_->coarse_bits, options_->step);
+    const Result<Lattice> lattice = lattice_for(options_->box.value_or(gop_box));
     if (!lattice) return lattice.error();
     while (queue_.full()) {
       if (Status status = write(queue_.take_or_make_room()); !status.ok()) return status;
@@ -230,6 +232,16 @@ class Encoder::State {
     ++report_.gops;
     if (progress_) progress_(report_.frames, std::nullopt);
     return {};
+  }
+
+  Result<Lattice> lattice_for(const BoundingBox& box) const {
+    return lattice_over(box, options_->fine_bits, options_->coarse_bits, options_->step);
+  }
+
+  static BoundingBox around(BoundingBox box, const BoundingBox& more) {
+    box.extend(more.low()[0], more.low()[1], more.low()[2]);
+    box.extend(more.high()[0], more.high()[1], more.high()[2]);
+    return box;
   }
 
   static bool holds(const BoundingBox& outer, const BoundingBox& inner) {
@@ -293,7 +305,7 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
 
 Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
                               const EncodeProgress& progress) {
-  if (!options.box) {
+  if (!options.box && !options.step) {
     const Result<std::optional<BoundingBox>> box = scan_box(source);
     if (!box) return box.error();
     options.box = *box;

@@ -1,6 +1,6 @@
 #include "server/admission.hpp"
 
-namespace tvg::cli {
+namespace tvg::server {
 
 std::shared_ptr<Admission::Place> Admission::enter(const std::string& address) {
   const std::lock_guard lock(mutex_);
@@ -25,4 +25,4 @@ void Admission::leave(const std::string& address) {
   --inside_;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

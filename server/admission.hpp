@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 /// Who may come in: so many connections at a time, and so many of them from one address. All of it may be
 /// called from any thread.
@@ -42,4 +42,4 @@ class Admission {
   std::map<std::string, std::size_t> by_address_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -14,7 +14,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -48,9 +48,8 @@ std::string address_of_peer(socket_t socket) {
   return ip;
 }
 
-Connection::Connection(socket_t socket, std::chrono::milliseconds time_limit,
-                       const std::atomic<bool>& stopping)
-    : socket_(socket), time_limit_(time_limit), stopping_(stopping) {
+Connection::Connection(socket_t socket, const TimeLimit& limit, const std::atomic<bool>& stopping)
+    : socket_(socket), limit_(limit), stopping_(stopping) {
 #ifdef TCP_NOTSENT_LOWAT
   // What a viewer does not take must not queue up in the system by the megabyte: it would never be late
   // enough to skip.
@@ -64,14 +63,17 @@ Connection::~Connection() {
 }
 
 bool Connection::wait_for(short events, Clock::time_point deadline) const {
-  for (;;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
-    if (left.count() <= 0 || stopping_) return false;
+  while (!stopping_) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - limit_.now());
+    const auto slice = std::clamp(left, std::chrono::milliseconds(0), kSlice);
     pollfd entry{socket_, events, 0};
-    const int ready = ::poll(&entry, 1, static_cast<int>(std::min(left, kSlice).count()));
+    const int ready = ::poll(&entry, 1, static_cast<int>(slice.count()));
     if (ready > 0) return true;
     if (ready < 0 && errno != EINTR) return false;
+    // Only now: what is there counts, however late a busy machine comes to look.
+    if (left.count() <= 0) return false;
   }
+  return false;
 }
 
 Connection::Fill Connection::fill(Clock::time_point deadline) {
@@ -91,7 +93,7 @@ Connection::Fill Connection::fill(Clock::time_point deadline) {
 
 Connection::Await Connection::await_request(std::chrono::milliseconds time) {
   if (begin_ < received_.size()) return Await::kThere;
-  switch (fill(Clock::now() + time)) {
+  switch (fill(limit_.now() + time)) {
     case Fill::kBytes:
       return Await::kThere;
     case Fill::kTimeUp:
@@ -103,7 +105,7 @@ Connection::Await Connection::await_request(std::chrono::milliseconds time) {
 }
 
 Connection::Head Connection::take_head(std::string& head) {
-  const Clock::time_point deadline = Clock::now() + time_limit_;
+  const Clock::time_point deadline = limit_.deadline();
   for (;;) {
     const std::string_view there = std::string_view(received_).substr(begin_);
     const std::size_t end = end_of_head(there);
@@ -136,7 +138,7 @@ bool Connection::is_writable() const {
 }
 
 ssize_t Connection::read(char* data, std::size_t size) {
-  if (begin_ == received_.size() && fill(Clock::now() + time_limit_) != Fill::kBytes) return -1;
+  if (begin_ == received_.size() && fill(limit_.deadline()) != Fill::kBytes) return -1;
   const std::size_t count = std::min(size, received_.size() - begin_);
   std::memcpy(data, received_.data() + begin_, count);
   begin_ += count;
@@ -144,7 +146,7 @@ ssize_t Connection::read(char* data, std::size_t size) {
 }
 
 ssize_t Connection::write(const char* data, std::size_t size) {
-  const Clock::time_point deadline = Clock::now() + time_limit_;
+  const Clock::time_point deadline = limit_.deadline();
   for (std::size_t done = 0; done < size;) {
     const ssize_t sent = ::send(socket_, data + done, size - done, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent >= 0) {
@@ -172,4 +174,4 @@ void Connection::get_local_ip_and_port(std::string& ip, int& port) const {
     read_address(address, ip, port);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

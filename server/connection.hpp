@@ -1,14 +1,23 @@
 #pragma once
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <httplib.h>
 #include <string>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 /// The address of a socket's peer as text; empty where it has gone.
 std::string address_of_peer(socket_t socket);
+
+/// How long a peer may take, and by which clock.
+struct TimeLimit {
+  std::chrono::milliseconds time;
+  std::function<std::chrono::steady_clock::time_point()> now;
+
+  std::chrono::steady_clock::time_point deadline() const { return now() + time; }
+};
 
 /// An accepted socket with limits on what its peer may take: a request's head must be in within the time
 /// limit and kMostHeadBytes, a body's next byte within the time limit of the last, and whatever is written at
@@ -16,7 +25,8 @@ std::string address_of_peer(socket_t socket);
 /// socket.
 class Connection final : public httplib::Stream {
  public:
-  Connection(socket_t socket, std::chrono::milliseconds time_limit, const std::atomic<bool>& stopping);
+  /// `limit` must outlive the connection.
+  Connection(socket_t socket, const TimeLimit& limit, const std::atomic<bool>& stopping);
   ~Connection() override;
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -54,10 +64,10 @@ class Connection final : public httplib::Stream {
   Fill fill(Clock::time_point deadline);
 
   socket_t socket_;
-  std::chrono::milliseconds time_limit_;
+  const TimeLimit& limit_;
   const std::atomic<bool>& stopping_;
   std::string received_;  ///< and not given out from begin_ on
   std::size_t begin_ = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

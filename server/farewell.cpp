@@ -7,7 +7,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -70,4 +70,4 @@ void Farewell::run() {
   }
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <thread>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 /// Closes connections that were turned away: for a moment it takes what their peers still send, because
 /// closing with bytes unread would destroy the answer before it is read. One thread for all of them, so that
@@ -42,4 +42,4 @@ class Farewell {
   std::thread thread_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -217,4 +217,4 @@ void respond_with_file(const fs::path& path, const httplib::Request& request, ht
   set_body(std::move(file), span, content_type_of(path), response);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

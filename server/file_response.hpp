@@ -7,7 +7,7 @@
 #include <string_view>
 
 // Files of a folder over HTTP, with ranges and validators as RFC 9110 has them.
-namespace tvg::cli {
+namespace tvg::server {
 
 /// The file or folder that a request's path (decoded, beginning with "/") names in `root`, which is
 /// canonical. Nothing where there is none, where it leads out of the root, through a symbolic link too, or
@@ -36,4 +36,4 @@ RangeChoice choose_range(std::string_view header, std::uint64_t size);
 void respond_with_file(const std::filesystem::path& file, const httplib::Request& request,
                        httplib::Response& response);
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -1,6 +1,5 @@
 #include "server/http_server.hpp"
 
-#include "server/connection.hpp"
 #include "server/request_head.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +9,7 @@
 #include <sys/socket.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -76,9 +75,8 @@ int take_head(Connection& connection, std::string& head) {
 
 }  // namespace
 
-HttpServer::HttpServer(std::size_t max_clients, std::size_t max_per_address,
-                       std::chrono::milliseconds timeout)
-    : timeout_(timeout), admission_(max_clients, max_per_address) {
+HttpServer::HttpServer(std::size_t max_clients, std::size_t max_per_address, TimeLimit limit)
+    : limit_(std::move(limit)), admission_(max_clients, max_per_address) {
   new_task_queue = [this, max_clients] {
     threads_ = std::make_shared<httplib::ThreadPool>(max_clients);
     return new AtTheDoor(threads_);
@@ -115,7 +113,7 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
 }
 
 void HttpServer::serve(socket_t socket) {
-  Connection connection(socket, timeout_, stopping_);
+  Connection connection(socket, limit_, stopping_);
   for (int left = kRequestsPerConnection; left > 0 && await_request(connection); --left) {
     if (!answer_request(connection, left == 1) || stopping_) break;
   }
@@ -156,4 +154,4 @@ bool HttpServer::answer_request(Connection& connection, bool last) {
   return answered && !closed_by_client && !body;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -1,24 +1,22 @@
 #pragma once
 #include "server/admission.hpp"
+#include "server/connection.hpp"
 #include "server/farewell.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <httplib.h>
 #include <memory>
 #include <string>
 
-namespace tvg::cli {
-
-class Connection;
+namespace tvg::server {
 
 /// httplib's server with this tool's limits on connections: their number, altogether and from one address,
 /// the time and bytes a head may take, what a head may say, and no body but where a handler reads it. Who
 /// finds no place is told so at once, by the thread that accepts.
 class HttpServer final : public httplib::Server {
  public:
-  HttpServer(std::size_t max_clients, std::size_t max_per_address, std::chrono::milliseconds timeout);
+  HttpServer(std::size_t max_clients, std::size_t max_per_address, TimeLimit limit);
 
   /// Makes room for many viewers that come at the same moment; after binding.
   void widen_backlog();
@@ -32,11 +30,11 @@ class HttpServer final : public httplib::Server {
   bool await_request(Connection& connection) const;
   bool answer_request(Connection& connection, bool last);
 
-  const std::chrono::milliseconds timeout_;
+  const TimeLimit limit_;
   Admission admission_;
   Farewell farewell_;
   std::shared_ptr<httplib::ThreadPool> threads_;  ///< one for each place, while it listens
   std::atomic<bool> stopping_{false};
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -13,7 +13,7 @@
 
 #include <tvg/decoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -147,4 +147,4 @@ std::string live_listing(const std::vector<LiveStatus>& streams) {
   return dump({{"streams", std::move(list)}});
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -6,7 +6,7 @@
 #include <vector>
 
 // What the server says about its content, as JSON.
-namespace tvg::cli {
+namespace tvg::server {
 
 /// The files and folders of `folder`, which is `root` or below it: for each name, type ("file", "folder"),
 /// size in bytes, modified (ISO 8601, UTC), url; and of a stream frames, vertices (what its head declares)
@@ -20,4 +20,4 @@ inline constexpr std::size_t kMostListed = 10000;
 /// since (ISO 8601, UTC).
 std::string live_listing(const std::vector<LiveStatus>& streams);
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

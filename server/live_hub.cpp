@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 bool LiveStream::add(StreamPart part) {
   const std::lock_guard lock(mutex_);
@@ -212,4 +212,4 @@ Status LiveViewer::write_next(std::chrono::milliseconds time, bool& done) {
   return assembler_.write_gop(*gop.chunk, gop.frame_count);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

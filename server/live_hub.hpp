@@ -15,7 +15,7 @@
 
 // Live streams between those who publish them and those who watch: what is in memory, and who waits for whom.
 // Nothing here knows HTTP. All of it may be called from any thread.
-namespace tvg::cli {
+namespace tvg::server {
 
 using SharedBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
@@ -178,4 +178,4 @@ class LiveViewer {
   std::optional<std::uint64_t> wanted_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

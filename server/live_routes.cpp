@@ -8,7 +8,7 @@
 #include <memory>
 #include <string_view>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -200,4 +200,4 @@ void LiveRoutes::list(httplib::Response& response) const {
   response.set_content(live_listing(hub_.list()), "application/json");
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

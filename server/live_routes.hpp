@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 /// "/live/NAME" over HTTP: PUT and POST publish, GET watches.
 class LiveRoutes {
@@ -46,4 +46,4 @@ class LiveRoutes {
   std::atomic<std::size_t> viewers_{0};
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

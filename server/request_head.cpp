@@ -4,7 +4,7 @@
 #include <cctype>
 #include <optional>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::string head_for_routes(std::string_view head) {
   return renamed;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

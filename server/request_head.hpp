@@ -5,7 +5,7 @@
 
 // A request's head as RFC 9112 has it, looked at before httplib takes it apart: httplib lets pass what two
 // readers could understand differently.
-namespace tvg::cli {
+namespace tvg::server {
 
 /// The most bytes of a head.
 inline constexpr std::size_t kMostHeadBytes = std::size_t{1} << 15;
@@ -26,4 +26,4 @@ int refusal_of_head(std::string_view head);
 /// The head with Range renamed to kRangeHeader.
 std::string head_for_routes(std::string_view head);
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

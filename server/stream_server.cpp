@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 namespace {
 
@@ -32,10 +32,11 @@ RelayLimits relay_limits(const ServerOptions& options) {
 fs::path canonical_folder(const std::string& folder) {
   std::error_code error;
   fs::path path = fs::canonical(folder, error);
-  if (error) throw ToolError(ExitStatus::kIo, fmt::format("cannot serve {}: {}", folder, error.message()));
+  if (error)
+    throw cli::ToolError(cli::ExitStatus::kIo, fmt::format("cannot serve {}: {}", folder, error.message()));
   if (!fs::is_directory(path, error)) {
-    throw ToolError(ExitStatus::kIo,
-                    fmt::format("cannot serve {}: it is no folder; name the one it lies in", folder));
+    throw cli::ToolError(cli::ExitStatus::kIo,
+                         fmt::format("cannot serve {}: it is no folder; name the one it lies in", folder));
   }
   return path;
 }
@@ -68,7 +69,7 @@ class StreamServer::Implementation {
   explicit Implementation(ServerOptions options)
       : options_(std::move(options)),
         root_(canonical_folder(options_.folder)),
-        http_(options_.max_clients, options_.max_per_address, options_.timeout),
+        http_(options_.max_clients, options_.max_per_address, {options_.timeout, options_.now}),
         live_(http_, options_.max_live_streams, relay_limits(options_), options_.timeout, options_.log) {
     add_routes();
     errno = 0;
@@ -77,8 +78,8 @@ class StreamServer::Implementation {
                                                                   : -1;
     if (port_ < 0) {
       const int reason = errno;
-      throw ToolError(
-          ExitStatus::kIo,
+      throw cli::ToolError(
+          cli::ExitStatus::kIo,
           fmt::format("cannot listen on {} port {}: {}", options_.address, options_.port,
                       reason == EADDRINUSE ? "another program does; choose another with --port, or 0 for any"
                                            : (reason != 0 ? std::generic_category().message(reason)
@@ -214,4 +215,4 @@ void StreamServer::stop() {
   implementation_->stop();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::server {
 
 struct ServerOptions {
   std::string folder;
@@ -20,6 +20,8 @@ struct ServerOptions {
   /// How long a client may take over a request's head, over the next byte of an upload, and over taking a
   /// piece of an answer (64 KiB at most).
   std::chrono::milliseconds timeout{30000};
+  /// The clock that `timeout` goes by; any thread.
+  std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
   std::function<void(const std::string&)> log;  ///< hears what live streams do, a line at a time; any thread
 };
 
@@ -57,4 +59,4 @@ class StreamServer {
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::server

@@ -2,7 +2,6 @@
 
 #include "tool/tool_error.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
@@ -34,6 +33,8 @@ StreamReader::StreamReader(const std::string& path)
       throw ToolError(ExitStatus::kIo, fmt::format("{}: is a folder; a .tvg file is expected", name_));
     }
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
+    // A file that the shell redirects may have been read before, to be looked through.
+    if (size_ && descriptor_ == STDIN_FILENO) ::lseek(descriptor_, 0, SEEK_SET);
   }
 }
 
@@ -81,19 +82,8 @@ std::vector<std::uint8_t> StreamReader::read_at(std::uint64_t offset, std::size_
 }
 
 std::size_t StreamReader::read_from(std::uint64_t offset, std::span<std::uint8_t> target) {
-  if (size_) {
-    move_to(offset, SEEK_SET);
-    return read_some(target.data(), target.size());
-  }
-  while (read_to_ < offset) {
-    const std::size_t count = read_some(
-        piece_.data(), static_cast<std::size_t>(std::min<std::uint64_t>(piece_.size(), offset - read_to_)));
-    if (count == 0) return 0;
-    read_to_ += count;
-  }
-  const std::size_t count = read_some(target.data(), target.size());
-  read_to_ += count;
-  return count;
+  if (size_) move_to(offset, SEEK_SET);
+  return read_some(target.data(), target.size());
 }
 
 std::optional<StreamMap> StreamReader::read_index() {

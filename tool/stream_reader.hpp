@@ -29,8 +29,8 @@ class StreamReader {
   /// The index at the file's end, where the input is a file and has one that can be read; the decoder then
   /// seeks by it.
   std::optional<StreamMap> read_index();
-  /// Bytes from `offset` on, as many as come at once; 0 at the end. Where the input is no file, offsets must
-  /// ascend, and what lies between is read over. Not together with next().
+  /// Bytes from `offset` on, as many as come at once; 0 at the end. Where the input is no file, these are the
+  /// next bytes, whatever the offset. Not together with next().
   std::size_t read_from(std::uint64_t offset, std::span<std::uint8_t> target);
   /// Goes to a frame: the next kFrame is this one, or the first good one after it. The input is a file, and
   /// its head has been read.
@@ -45,7 +45,6 @@ class StreamReader {
   int descriptor_;
   std::optional<std::uint64_t> size_;
   std::vector<std::uint8_t> piece_;
-  std::uint64_t read_to_ = 0;  ///< by read_from(), where the input is no file
   Decoder decoder_;
 };
 

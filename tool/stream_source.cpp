@@ -38,6 +38,7 @@ void StreamSource::open() {
 
 Error StreamSource::named(Error error) const {
   error.message = path_ + ": " + error.message;
+  error.names_file = true;
   return error;
 }
 

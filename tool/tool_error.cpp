@@ -20,6 +20,7 @@ ExitStatus exit_status(ErrorCode code) {
 }  // namespace
 
 ToolError tool_error(const std::string& file, const Error& error) {
+  if (error.names_file) return tool_error(error);
   return {exit_status(error.code), file + ": " + error.describe()};
 }
 

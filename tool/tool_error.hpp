@@ -21,7 +21,8 @@ class ToolError : public std::runtime_error {
   ExitStatus status_;
 };
 
-/// A library error that concerns a file, as the tool reports it.
+/// A library error that concerns a file, as the tool reports it; `file` is added where the message does not
+/// name one already.
 ToolError tool_error(const std::string& file, const Error& error);
 
 /// A library error whose message names the file already.

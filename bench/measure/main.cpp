@@ -44,7 +44,7 @@ Importance by(const Settings& settings, const std::string& criteria, double alph
   Importance marks;
   marks.share = cli::parse_share(settings.share);
   marks.criteria = cli::parse_criteria(criteria);
-  marks.alpha = alpha;
+  marks.curv.alpha = alpha;
   marks.smoothing = smoothing;
   return marks;
 }

@@ -65,7 +65,7 @@ class FrameRate {
   bool even_ = true;
 };
 
-class CacheSource final : public SkippableSource {
+class CacheSource final : public FrameSource {
  public:
   CacheSource(const std::string& path, Mesh mesh, Metadata metadata, std::string mesh_file, bool open_ended)
       : file_(path),
@@ -269,8 +269,8 @@ bool CacheSource::rewind() {
 
 }  // namespace
 
-std::unique_ptr<SkippableSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
-                                            const std::string& mesh_file, bool open_ended) {
+std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
+                                        const std::string& mesh_file, bool open_ended) {
   return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, open_ended);
 }
 

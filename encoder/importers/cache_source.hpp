@@ -1,8 +1,8 @@
 #pragma once
-#include "encoder/importers/frame_range.hpp"
-
 #include <memory>
 #include <string>
+
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 
@@ -13,7 +13,7 @@ namespace tvg::cli {
 /// `open_ended` is as in SourceSpec.
 /// Throws ImportError: kIo, kInvalidInput (the vertex counts differ, no frames, more bytes than promised),
 /// kTruncated (fewer bytes than promised).
-std::unique_ptr<SkippableSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
-                                            const std::string& mesh_file, bool open_ended = false);
+std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
+                                        const std::string& mesh_file, bool open_ended = false);
 
 }  // namespace tvg::cli

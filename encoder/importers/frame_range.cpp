@@ -2,20 +2,29 @@
 
 namespace tvg::cli {
 
+Status FrameRangeSource::go_to_range() {
+  if (skipped_) return {};
+  Status status = SourceDecorator::skip_frames(range_.first);
+  skipped_ = status.ok();
+  return status;
+}
+
 Result<bool> FrameRangeSource::read_frame(std::span<float> positions) {
   if (frames_ == range_.last - range_.first + 1) return false;
-  if (!skipped_) {
-    const Status skipped = source_->skip_frames(range_.first);
-    if (!skipped.ok()) return skipped.error();
-    skipped_ = true;
-  }
-  Result<bool> read = source_->read_frame(positions);
+  if (const Status status = go_to_range(); !status.ok()) return status.error();
+  Result<bool> read = SourceDecorator::read_frame(positions);
   if (read && *read) ++frames_;
   return read;
 }
 
+Status FrameRangeSource::skip_frames(std::uint64_t count) {
+  if (Status status = go_to_range(); !status.ok()) return status;
+  frames_ += count;
+  return SourceDecorator::skip_frames(count);
+}
+
 bool FrameRangeSource::rewind() {
-  if (!source_->rewind()) return false;
+  if (!SourceDecorator::rewind()) return false;
   skipped_ = false;
   frames_ = 0;
   return true;

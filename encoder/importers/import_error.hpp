@@ -15,7 +15,7 @@ class ImportError : public ToolError {
 
   ErrorCode code() const { return code_; }
   /// The same as a value.
-  Error as_value() const { return {code_, what(), {}, {}, ""}; }
+  Error as_value() const { return {.code = code_, .message = what(), .names_file = true}; }
 
  private:
   ErrorCode code_;

@@ -55,7 +55,7 @@ Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const Scene
   return keyframe;
 }
 
-class KeyframeSource final : public SkippableSource {
+class KeyframeSource final : public FrameSource {
  public:
   KeyframeSource(std::string path, std::uint32_t frames, SceneOptions options)
       : path_(std::move(path)), frames_(frames), options_(std::move(options)) {
@@ -141,7 +141,7 @@ Result<bool> KeyframeSource::read_frame(std::span<float> positions) {
   } catch (const ImportError& error) {
     return error.as_value();
   } catch (const ToolError& error) {
-    return Error{ErrorCode::kInvalidInput, error.what(), {}, {}, ""};
+    return ImportError(ErrorCode::kInvalidInput, error.what()).as_value();
   }
   ++next_;
   return true;

@@ -1,5 +1,4 @@
 #pragma once
-#include "encoder/importers/frame_range.hpp"
 #include "encoder/importers/mesh_file.hpp"
 
 #include <cstdint>
@@ -7,6 +6,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 
@@ -31,7 +32,7 @@ struct WeldedMesh {
 WeldedMesh read_welded_mesh(const std::string& path);
 
 /// Frames of mesh files with one connectivity, that of the first, read one file at a time.
-class MeshSequenceSource final : public SkippableSource {
+class MeshSequenceSource final : public FrameSource {
  public:
   /// `first` is the content of files[0]; its frame has the number `first_frame` in messages.
   MeshSequenceSource(std::vector<std::string> files, WeldedMesh first, std::uint64_t first_frame);

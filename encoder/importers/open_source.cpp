@@ -1,6 +1,7 @@
 #include "encoder/importers/open_source.hpp"
 
 #include "encoder/importers/cache_source.hpp"
+#include "encoder/importers/frame_range.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
 #include "encoder/importers/scene_file.hpp"
@@ -50,7 +51,7 @@ void check_known(const std::string& path) {
 /// The mesh that probably goes with a cache: the one beside it with the same name.
 std::string mesh_beside(const std::string& cache) {
   for (const char* suffix : {".obj", ".ply", ".off", ".stl"}) {
-    const std::string candidate = fs::path(cache).replace_extension(suffix).string();
+    std::string candidate = fs::path(cache).replace_extension(suffix).string();
     std::error_code ignored;
     if (fs::is_regular_file(candidate, ignored)) return candidate;
   }
@@ -71,9 +72,9 @@ std::string mesh_beside(const std::string& cache) {
 }
 
 /// Puts the skeleton of `spec`, where there is one, beside a source whose first frame is `first` of `total`.
-std::unique_ptr<SkippableSource> with_skeleton(std::unique_ptr<SkippableSource> source,
-                                               const SourceSpec& spec, std::uint64_t first,
-                                               std::uint64_t total, std::vector<std::string>& notes) {
+std::unique_ptr<FrameSource> with_skeleton(std::unique_ptr<FrameSource> source, const SourceSpec& spec,
+                                           std::uint64_t first, std::uint64_t total,
+                                           std::vector<std::string>& notes) {
   if (spec.skeleton.empty()) return source;
   return attach_skeleton(std::move(source), {spec.skeleton, spec.scene.fps, first, total}, notes);
 }
@@ -121,7 +122,7 @@ OpenedSource open_meshes(const std::string& input, const SourceSpec& spec) {
   WeldedMesh first = read_welded_mesh(files[0]);
   std::vector<std::string> notes = std::move(first.notes);
   const std::uint64_t first_frame = frames ? frames->first : 0;
-  std::unique_ptr<SkippableSource> source =
+  std::unique_ptr<FrameSource> source =
       std::make_unique<MeshSequenceSource>(std::move(files), std::move(first), first_frame);
   source = with_skeleton(std::move(source), spec, first_frame, frame_count, notes);
   return {std::move(source), std::move(notes)};

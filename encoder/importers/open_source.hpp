@@ -1,5 +1,4 @@
 #pragma once
-#include "encoder/importers/frame_range.hpp"
 #include "encoder/importers/scene_options.hpp"
 
 #include <memory>

@@ -2,6 +2,7 @@
 
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/gltf_keys.hpp"
+#include "encoder/importers/import_error.hpp"
 #include "encoder/importers/keyframe_source.hpp"
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/scene_file.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr const char* kDefaultFps = "30";
 
-class SceneSource final : public SkippableSource {
+class SceneSource final : public FrameSource {
  public:
   SceneSource(std::string file, SceneNodes nodes, Clip clip, SceneMesh mesh, Metadata metadata, double fps)
       : file_(std::move(file)),
@@ -87,13 +88,12 @@ Result<bool> SceneSource::read_frame(std::span<float> positions) {
   skeleton_.pose(global_, joint_positions_);
   const bool joints_finite = find_non_finite(joint_positions_) == joint_positions_.size();
   if (const std::size_t bad = find_non_finite(positions); bad < positions.size() || !joints_finite) {
-    return Error{
-        ErrorCode::kInvalidInput,
-        fmt::format("{}: in frame {} the clip moves {} to where coordinates are NaN or infinite", file_,
-                    next_, bad < positions.size() ? fmt::format("vertex {}", bad / 3) : "a joint"),
-        {},
-        {},
-        ""};
+    const std::string what = bad < positions.size() ? fmt::format("vertex {}", bad / 3) : "a joint";
+    return ImportError(
+               ErrorCode::kInvalidInput,
+               fmt::format("{}: in frame {} the clip moves {} to where coordinates are NaN or infinite",
+                           file_, next_, what))
+        .as_value();
   }
   ++next_;
   return true;

@@ -1,16 +1,17 @@
 #pragma once
-#include "encoder/importers/frame_range.hpp"
 #include "encoder/importers/scene_options.hpp"
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <tvg/source.hpp>
+
 namespace tvg::cli {
 
 /// A scene as frames, with its skeleton, and what a user may want to know of it.
 struct OpenedScene {
-  std::unique_ptr<SkippableSource> source;
+  std::unique_ptr<FrameSource> source;
   std::vector<std::string> notes;
 };
 

@@ -94,45 +94,44 @@ class SkeletonReader {
   const json& document_;
 };
 
-class JointedSource final : public FrameSource {
+class JointedSource final : public SourceDecorator {
  public:
   JointedSource(std::unique_ptr<FrameSource> source, JointTracks tracks, std::string file,
                 std::uint64_t first_frame)
-      : source_(std::move(source)),
+      : SourceDecorator(std::move(source)),
         tracks_(std::move(tracks)),
         file_(std::move(file)),
         first_frame_(first_frame) {}
 
-  const Mesh& mesh() const override { return source_->mesh(); }
-  Metadata metadata() const override { return source_->metadata(); }
   const Skeleton& skeleton() const override { return tracks_.skeleton; }
   std::span<const float> joint_positions() const override {
-    if (read_ == 0) return {};
+    if (read_ == 0 || first_frame_ + read_ > tracks_.frames.size()) return {};
     return tracks_.frames[first_frame_ + read_ - 1];
   }
-  std::optional<std::uint64_t> frame_count() const override { return source_->frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override {
-    Result<bool> read = source_->read_frame(positions);
+    Result<bool> read = SourceDecorator::read_frame(positions);
     if (!read || !*read) return read;
     // A pipe's number of frames is known only now.
     if (first_frame_ + read_ >= tracks_.frames.size()) {
-      return Error{ErrorCode::kInvalidInput,
-                   fmt::format("{} ends after {} frames, and the mesh goes on", file_, tracks_.frames.size()),
-                   {},
-                   {},
-                   ""};
+      return ImportError(
+                 ErrorCode::kInvalidInput,
+                 fmt::format("{} ends after {} frames, and the mesh goes on", file_, tracks_.frames.size()))
+          .as_value();
     }
     ++read_;
     return true;
   }
+  Status skip_frames(std::uint64_t count) override {
+    read_ += count;
+    return SourceDecorator::skip_frames(count);
+  }
   bool rewind() override {
-    if (!source_->rewind()) return false;
+    if (!SourceDecorator::rewind()) return false;
     read_ = 0;
     return true;
   }
 
  private:
-  std::unique_ptr<FrameSource> source_;
   JointTracks tracks_;
   std::string file_;
   std::uint64_t first_frame_;

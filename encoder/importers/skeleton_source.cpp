@@ -1,6 +1,7 @@
 #include "encoder/importers/skeleton_source.hpp"
 
 #include "encoder/importers/bytes.hpp"
+#include "encoder/importers/import_error.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
 #include "tool/mesh_format.hpp"
@@ -48,35 +49,31 @@ class Motion {
   std::vector<Transform> rest_, local_, global_;
 };
 
-class SkeletonSource final : public SkippableSource {
+class SkeletonSource final : public SourceDecorator {
  public:
   /// Without a rate, frames are taken one to one.
-  SkeletonSource(std::unique_ptr<SkippableSource> source, const SceneFile& file, Motion motion,
+  SkeletonSource(std::unique_ptr<FrameSource> source, const SceneFile& file, Motion motion,
                  const SkeletonSpec& spec, std::optional<double> fps)
-      : source_(std::move(source)),
+      : SourceDecorator(std::move(source)),
         file_(file.path()),
         motion_(std::move(motion)),
         fps_(fps),
         first_(spec.first_frame),
         next_(spec.first_frame) {}
 
-  const Mesh& mesh() const override { return source_->mesh(); }
-  Metadata metadata() const override { return source_->metadata(); }
   const Skeleton& skeleton() const override { return motion_.skeleton(); }
   std::span<const float> joint_positions() const override { return joint_positions_; }
-  std::optional<std::uint64_t> frame_count() const override { return source_->frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override;
   Status skip_frames(std::uint64_t count) override {
     next_ += count;
-    return source_->skip_frames(count);
+    return SourceDecorator::skip_frames(count);
   }
   bool rewind() override {
     next_ = first_;
-    return source_->rewind();
+    return SourceDecorator::rewind();
   }
 
  private:
-  std::unique_ptr<SkippableSource> source_;
   std::string file_;
   Motion motion_;
   std::optional<double> fps_;
@@ -86,18 +83,16 @@ class SkeletonSource final : public SkippableSource {
 };
 
 Result<bool> SkeletonSource::read_frame(std::span<float> positions) {
-  Result<bool> read = source_->read_frame(positions);
+  Result<bool> read = SourceDecorator::read_frame(positions);
   if (!read || !*read) return read;
   const std::vector<double>& times = motion_.times();
   const double seconds = fps_ ? times.front() + static_cast<double>(next_) / *fps_
                               : times[std::min<std::uint64_t>(next_, times.size() - 1)];
   motion_.pose(seconds, joint_positions_);
   if (find_non_finite(joint_positions_) < joint_positions_.size()) {
-    return Error{ErrorCode::kInvalidInput,
-                 fmt::format("{}: a joint is NaN or infinite at {:.6g} s", file_, seconds),
-                 {},
-                 {},
-                 ""};
+    return ImportError(ErrorCode::kInvalidInput,
+                       fmt::format("{}: a joint is NaN or infinite at {:.6g} s", file_, seconds))
+        .as_value();
   }
   ++next_;
   return true;
@@ -111,8 +106,8 @@ std::string rate_of(const FrameSource& source, const SkeletonSpec& spec) {
 
 }  // namespace
 
-std::unique_ptr<SkippableSource> attach_skeleton(std::unique_ptr<SkippableSource> source,
-                                                 const SkeletonSpec& spec, std::vector<std::string>& notes) {
+std::unique_ptr<FrameSource> attach_skeleton(std::unique_ptr<FrameSource> source, const SkeletonSpec& spec,
+                                             std::vector<std::string>& notes) {
   if (!has_suffix(spec.file, ".bvh")) {
     throw ToolError(ExitStatus::kUsage,
                     fmt::format("--skeleton {}: only BVH files (.bvh) are read", spec.file));

@@ -1,10 +1,10 @@
 #pragma once
-#include "encoder/importers/frame_range.hpp"
-
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <tvg/source.hpp>
 
 namespace tvg::cli {
 
@@ -20,7 +20,7 @@ struct SkeletonSpec {
 /// the file has as many frames as the whole sequence they are taken one to one. Otherwise frame i stands at i
 /// / fps seconds, joints are interpolated, and beyond the file's end they hold the last pose; a note says so.
 /// Throws ToolError: kUsage (no BVH file; no rate is known), kIo, kInvalidInput.
-std::unique_ptr<SkippableSource> attach_skeleton(std::unique_ptr<SkippableSource> source,
-                                                 const SkeletonSpec& spec, std::vector<std::string>& notes);
+std::unique_ptr<FrameSource> attach_skeleton(std::unique_ptr<FrameSource> source, const SkeletonSpec& spec,
+                                             std::vector<std::string>& notes);
 
 }  // namespace tvg::cli

@@ -1,3 +1,5 @@
+#include "base/stream_error.hpp"
+
 #include <tvg/types.hpp>
 
 namespace tvg {
@@ -39,8 +41,8 @@ std::string Error::describe() const {
   std::string text = message;
   text += " [";
   text += error_name(code);
-  if (byte_offset) text += ", byte " + std::to_string(*byte_offset);
-  if (frame) text += ", frame " + std::to_string(*frame);
+  if (byte_offset) text += ", byte " + decimal(*byte_offset);
+  if (frame) text += ", frame " + decimal(*frame);
   if (section[0] != '\0') text += std::string(", spec ") + section;
   return text + "]";
 }

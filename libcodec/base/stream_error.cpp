@@ -4,6 +4,10 @@
 
 namespace tvg {
 
+std::string decimal(std::uint64_t number) {
+  return std::to_string(number);
+}
+
 Error out_of_memory() {
   Error error;
   error.code = ErrorCode::kOutOfMemory;
@@ -18,6 +22,10 @@ Error stream_error(ErrorCode code, const char* section, std::initializer_list<st
   for (const std::string_view piece : sentence) error.message += piece;
   error.section = section;
   return error;
+}
+
+Error error_of(const Fault& fault) {
+  return stream_error(fault.code, fault.section, {fault.sentence});
 }
 
 Error malformed(const char* section, std::string_view sentence) {

@@ -64,18 +64,12 @@ ChunkReader::Event ChunkReader::use_head(Bytes payload) {
 std::optional<ChunkReader::Event> ChunkReader::use_mesh(Bytes payload) {
   Result<MeshLayout> mesh = read_mesh(payload);
   Status status = mesh ? check_mesh_size(*mesh, head_.limits) : Status(std::move(mesh.error()));
-  MeshInForce in_force;
-  if (status.ok()) {
-    in_force.vertex_count = mesh->vertex_count;
-  } else {
-    in_force.fault = status.error().code;
-  }
-  if (!note_mesh(in_force)) return fail(out_of_memory());
   if (status.ok()) {
     mesh_ = *mesh;
-    return Event::kMesh;
+    return note_mesh(mesh_.vertex_count, {}) ? Event::kMesh : fail(out_of_memory());
   }
-  if (in_force.fault == ErrorCode::kUnsupported) {  // a GOP that names it will tell
+  if (!note_mesh(0, status.error().code)) return fail(out_of_memory());
+  if (status.error().code == ErrorCode::kUnsupported) {  // a GOP that names it will tell
     consume(std::exchange(used_, std::size_t{0}));
     return std::nullopt;
   }
@@ -85,10 +79,12 @@ std::optional<ChunkReader::Event> ChunkReader::use_mesh(Bytes payload) {
 }
 
 /// A mesh takes its place among those in force; what is known of it stays where it is there already.
-bool ChunkReader::note_mesh(MeshInForce mesh) {
-  if (const auto* const known = meshes_.find(payload_checksum_)) mesh = known->value;
+bool ChunkReader::note_mesh(std::uint32_t vertex_count, std::optional<ErrorCode> fault) {
+  ChunkWindow::Entry mesh{.id = payload_checksum_, .fault = fault, .number = vertex_count};
+  if (const ChunkWindow::Entry* const known = meshes_.find(payload_checksum_)) mesh = *known;
+  mesh.offset = chunk_offset_;
   expected_index_.add({.offset = chunk_offset_, .kind = IndexEntry::Kind::kMesh});
-  return meshes_.put(payload_checksum_, chunk_offset_, mesh, head_.limits.meshes);
+  return meshes_.put(std::move(mesh), head_.limits.meshes);
 }
 
 // format-spec §4.9
@@ -102,16 +98,18 @@ std::optional<ChunkReader::Event> ChunkReader::begin_plan() {
 
 /// Planes were passed over to their end, and their checksum fits.
 std::optional<ChunkReader::Event> ChunkReader::use_plan() {
-  const Result<PlanHeader> plan =
-      read_plan_header(Bytes(plan_front_).first(std::min<std::size_t>(chunk_.length, plan_front_.size())));
-  if (!plan || meshes_.find(plan->mesh) == nullptr) {
+  PlanHeader plan;
+  Fault fault = read_plan_header(
+      Bytes(plan_front_).first(std::min<std::size_t>(chunk_.length, plan_front_.size())), plan);
+  if (!fault && meshes_.find(plan.mesh) == nullptr)
+    fault = {state_ == StreamState::kOpen ? "§3.4" : "§4.9", "the mesh of planes is not in force"};
+  if (fault) {
     whole_ = false;
-    return report(
-        plan ? malformed(state_ == StreamState::kOpen ? "§3.4" : "§4.9", "the mesh of planes is not in force")
-             : plan.error());
+    return report(error_of(fault));
   }
   expected_index_.add({.offset = chunk_offset_, .kind = IndexEntry::Kind::kPlan});
-  if (!plans_.put(payload_checksum_, chunk_offset_, {}, kPlansInForce)) return fail(out_of_memory());
+  if (!plans_.put({.id = payload_checksum_, .offset = chunk_offset_}, kPlansInForce))
+    return fail(out_of_memory());
   return std::nullopt;
 }
 

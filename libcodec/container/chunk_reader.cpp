@@ -98,23 +98,30 @@ ChunkReader::Event ChunkReader::fail(Error error) {
   return Event::kFailed;
 }
 
+ChunkReader::Event ChunkReader::tell(Event event, Error error, std::uint64_t offset, bool loses,
+                                     bool searching) {
+  if (error.code == ErrorCode::kOutOfMemory || !has_head()) return fail(std::move(error));
+  problem_.error = std::move(error);
+  if (!problem_.error.byte_offset) problem_.error.byte_offset = offset;
+  problem_.loses = loses;
+  problem_.searching = searching;
+  problem_.doubts = false;
+  return event;
+}
+
 /// Something is wrong, but nothing is lost by it.
 ChunkReader::Event ChunkReader::report(Error error) {
-  if (error.code == ErrorCode::kOutOfMemory) return fail(std::move(error));
-  if (!error.byte_offset) error.byte_offset = chunk_offset_;
-  problem_ = {std::move(error), false, phase_ == Phase::kSearch, false};
-  return Event::kProblem;
+  return tell(Event::kProblem, std::move(error), chunk_offset_, false, phase_ == Phase::kSearch);
 }
 
 /// What is being read is lost. The search for the next chunk begins `passed` bytes on.
 ChunkReader::Event ChunkReader::lose(Error error, std::size_t passed) {
-  if (error.code == ErrorCode::kOutOfMemory) return fail(std::move(error));
   if (!error.byte_offset) error.byte_offset = offset_;
-  if (!has_head()) return fail(std::move(error));
   // No frame is behind the index, or behind the digest of a GOP.
-  problem_ = {std::move(error), phase_ == Phase::kPacket ? !digest_met_ : in_sequence(), true, false};
-  begin_search(passed);
-  return Event::kProblem;
+  const bool loses = phase_ == Phase::kPacket ? !digest_met_ : in_sequence();
+  const Event event = tell(Event::kProblem, std::move(error), offset_, loses, true);
+  if (event == Event::kProblem) begin_search(passed);
+  return event;
 }
 
 /// A structure of `size` bytes does not fit its checksum. The next chunk may begin inside it, where bytes are
@@ -136,7 +143,7 @@ void ChunkReader::begin_search(std::size_t passed) {
 
 void ChunkReader::reject(ErrorCode why) {
   if (kind_ == ChunkKind::kMesh) {
-    if (auto* const mesh = meshes_.find(payload_checksum_)) mesh->value.fault = why;
+    if (auto* const mesh = meshes_.find(payload_checksum_)) mesh->fault = why;
   } else if (phase_ == Phase::kPacket && why == ErrorCode::kUnsupported) {
     phase_ = Phase::kPassOver;
   } else if (phase_ == Phase::kPacket) {
@@ -341,7 +348,7 @@ std::optional<ChunkReader::Event> ChunkReader::end_payload() {
   if (kind_ == ChunkKind::kPlan) return use_plan();
   if (kind_ != ChunkKind::kMesh) return std::nullopt;
   // Too long to be read, but other meshes go out of force by it.
-  if (!note_mesh({0, ErrorCode::kLimitExceeded})) return fail(out_of_memory());
+  if (!note_mesh(0, ErrorCode::kLimitExceeded)) return fail(out_of_memory());
   return std::nullopt;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "base/checksum.hpp"
+#include "base/stream_error.hpp"
 #include "container/chunk.hpp"
 #include "container/chunk_order.hpp"
 #include "container/chunk_window.hpp"
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -19,12 +21,6 @@
 #include <tvg/types.hpp>
 
 namespace tvg {
-
-/// What the reader keeps of a mesh in force.
-struct MeshInForce {
-  std::uint32_t vertex_count = 0;
-  std::optional<ErrorCode> fault;  ///< why it cannot be used, if so
-};
 
 /// Takes a stream apart as its bytes arrive: the one reader of its structure (format-spec §3, §4, §8.3). It
 /// knows which chunk may stand where, how long each may be, and what the checksums say; what packets and
@@ -69,6 +65,10 @@ class ChunkReader {
   /// The next event. What it names is valid until the next call of push() or next().
   Event next();
 
+  /// Keeps what was made of the mesh given out last as long as it is in force.
+  void keep(std::shared_ptr<const void> content) {
+    meshes_.find(payload_checksum_)->content = std::move(content);
+  }
   /// The content given out last cannot be used though its checksum fits. Of a GOP the rest is passed over;
   /// what is malformed may be damage by chance, so that the next chunk is looked for. A mesh stays in force
   /// as one that cannot be used.
@@ -90,7 +90,8 @@ class ChunkReader {
   /// Its parts lie in the bytes given out: they are valid no longer than content().
   const MeshLayout& mesh() const { return mesh_; }
   std::uint32_t mesh_id() const { return payload_checksum_; }
-  const ChunkWindow<MeshInForce>& meshes() const { return meshes_; }
+  /// Meshes in force; `number` is how many vertices each has.
+  const ChunkWindow& meshes() const { return meshes_; }
   /// Its parts are valid no longer than content().
   const GopHeader& gop() const { return gop_; }
   /// Of kGop: where the chunk of its mesh begins.
@@ -157,9 +158,9 @@ class ChunkReader {
   Event use_gop_header();
   using PlaneNumbers = std::array<std::uint64_t, 256>;
   bool find_planes(PlaneNumbers& back) const;
-  bool note_mesh(MeshInForce mesh);
+  bool note_mesh(std::uint32_t vertex_count, std::optional<ErrorCode> fault);
   Event misplaced(const char* sentence);
-  Event lose_gop(Error error);
+  Event lose_gop(const Fault& fault);
   std::optional<Event> end_packets();
   std::optional<Event> end_gop();
   std::optional<Event> search();
@@ -169,6 +170,7 @@ class ChunkReader {
   std::uint64_t most_payload(ChunkKind kind) const;
   bool reserve_for_packets();
   std::optional<Event> need_bytes();
+  Event tell(Event event, Error error, std::uint64_t offset, bool loses, bool searching);
   Event report(Error error);
   Event lose(Error error, std::size_t passed);
   Event lose_unproven(Error error, std::size_t size);
@@ -202,10 +204,9 @@ class ChunkReader {
 
   std::uint32_t payload_checksum_ = 0;  ///< of the payload used last
   MeshLayout mesh_{};
-  ChunkWindow<MeshInForce> meshes_;
+  ChunkWindow meshes_;
   std::array<std::uint8_t, PlanHeader::kMostBytes> plan_front_{};  ///< of the payload being passed over
-  struct NothingKept {};
-  ChunkWindow<NothingKept> plans_;
+  ChunkWindow plans_;
 
   GopHeader gop_;
   std::uint64_t gop_mesh_offset_ = 0;

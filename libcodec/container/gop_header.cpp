@@ -25,27 +25,37 @@ std::vector<std::uint8_t> write_gop_header(const GopHeader& header) {
   return writer.take();
 }
 
+namespace {
+
 // format-spec §4.5.1
-Result<GopHeader> read_gop_header(Bytes packet) {
-  ByteReader reader(packet);
-  GopHeader header;
+Fault parse(ByteReader reader, GopHeader& header) {
+  constexpr const char* kSection = "§4.5.1";
+  constexpr Fault kShort{kSection, "the GOP's header is too short"};
   header.mesh = reader.u32();
   header.first_frame = reader.varint();
   const std::uint64_t frame_count = reader.varint();
   const std::uint64_t packet_count = reader.varint();
   const std::uint64_t planes = reader.varint();
-  if (!reader.ok()) return malformed("§4.5.1", "the GOP's header is too short");
+  if (!reader.ok()) return kShort;
   if (frame_count == 0 || frame_count > 0xFFFFFFFF || header.first_frame > kMostFirstFrame)
-    return malformed("§4.5.1", "the GOP's frame numbers are out of range");
+    return {kSection, "the GOP's frame numbers are out of range"};
   if (packet_count <= frame_count || packet_count > kMostPackets)
-    return malformed("§4.5.1", "the number of the GOP's packets is out of range");
-  if (planes > kMostPlanes) return malformed("§4.5.1", "the GOP names too many planes");
+    return {kSection, "the number of the GOP's packets is out of range"};
+  if (planes > kMostPlanes) return {kSection, "the GOP names too many planes"};
   header.frame_count = static_cast<std::uint32_t>(frame_count);
   header.packet_count = static_cast<std::uint32_t>(packet_count);
   header.planes = reader.bytes(4 * planes);
   header.mode = reader.varint();
-  if (!reader.ok()) return malformed("§4.5.1", "the GOP's header is too short");
+  if (!reader.ok()) return kShort;
   header.fields = reader.bytes(reader.left());
+  return {};
+}
+
+}  // namespace
+
+Result<GopHeader> read_gop_header(Bytes packet) {
+  GopHeader header;
+  if (const Fault fault = parse(ByteReader(packet), header)) return error_of(fault);
   return header;
 }
 

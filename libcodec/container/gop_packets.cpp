@@ -3,7 +3,6 @@
 #include "container/chunk_reader.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
 // The packets of a GOP, one by one (format-spec §4.5).
@@ -14,8 +13,7 @@ bool ChunkReader::reserve_for_packets() {
   constexpr std::uint64_t kAnyHeader = 4096;
   constexpr std::uint64_t kBytesPerVertex = 16;
   std::uint64_t vertices = 0;
-  for (const auto& mesh : meshes_.entries())
-    vertices = std::max<std::uint64_t>(vertices, mesh.value.vertex_count);
+  for (const ChunkWindow::Entry& mesh : meshes_.entries()) vertices = std::max(vertices, mesh.number);
   return try_reserve(buffer_, static_cast<std::size_t>(std::min<std::uint64_t>(
                                   chunk_.length, kAnyHeader + kBytesPerVertex * vertices)));
 }
@@ -63,10 +61,8 @@ ChunkReader::Event ChunkReader::use_packet(const PacketRead& packet) {
     return Event::kDigest;
   }
   if (!kind::is_frame(packet.kind)) {
-    Error error = stream_error(ErrorCode::kUnsupported, "§4.5",
-                               {"the GOP needs a decoder that knows packets of kind ",
-                                std::to_string(static_cast<int>(packet.kind))});
-    const Event event = report(std::move(error));
+    const Event event = report(error_of(
+        {"§4.5", "the GOP has a packet of a kind that this decoder does not know", ErrorCode::kUnsupported}));
     problem_.loses = frames_met_ < gop_.frame_count;
     phase_ = Phase::kPassOver;
     return event;
@@ -93,25 +89,20 @@ ChunkReader::Event ChunkReader::use_gop_header() {
   gop_ = *header;
   const auto* const mesh = meshes_.find(gop_.mesh);
   if (mesh == nullptr) {
-    return lose_gop(
-        malformed(state_ == StreamState::kOpen ? "§3.4" : "§4.5.1", "the mesh of a GOP is not in force"));
+    const char* const section = state_ == StreamState::kOpen ? "§3.4" : "§4.5.1";
+    return lose_gop({section, "the mesh of a GOP is not in force"});
   }
   PlaneNumbers planes{};
-  if (!find_planes(planes)) return lose_gop(malformed("§4.5.1", "planes of a GOP are not in force"));
+  if (!find_planes(planes)) return lose_gop({"§4.5.1", "planes of a GOP are not in force"});
   expected_index_.add({.offset = chunk_offset_,
                        .frame_count = gop_.frame_count,
                        .meshes_back = static_cast<std::uint32_t>(meshes_.back(*mesh)),
                        .kind = IndexEntry::Kind::kGop},
                       PlanesBack(planes).first(gop_.plane_count()));
-  if (mesh->value.fault == ErrorCode::kUnsupported) {
-    return lose_gop(stream_error(ErrorCode::kUnsupported, "§4.3",
-                                 {"the mesh of a GOP needs a decoder that knows all of its sections"}));
-  }
-  if (mesh->value.fault)
-    return lose_gop(stream_error(*mesh->value.fault, "§4.3", {"the mesh of a GOP cannot be used"}));
+  if (mesh->fault) return lose_gop({"§4.3", "the mesh of a GOP cannot be used", *mesh->fault});
   if (gop_.mode != kModeElp) {
-    return lose_gop(stream_error(ErrorCode::kUnsupported, "§4.5.1",
-                                 {"the GOP needs a decoder that knows mode ", std::to_string(gop_.mode)}));
+    return lose_gop(
+        {"§4.5.1", "the GOP is in a mode that this decoder does not know", ErrorCode::kUnsupported});
   }
   gop_mesh_offset_ = mesh->offset;
   packet_number_ = 1;
@@ -121,17 +112,16 @@ ChunkReader::Event ChunkReader::use_gop_header() {
 
 /// The GOP whose header was just read cannot be decoded.
 // format-spec §8.3
-ChunkReader::Event ChunkReader::lose_gop(Error error) {
-  if (error.code == ErrorCode::kOutOfMemory) return fail(std::move(error));
-  const bool unsupported = error.code == ErrorCode::kUnsupported;
-  error.byte_offset = chunk_offset_;
-  problem_ = {std::move(error), true, !unsupported, false};
+ChunkReader::Event ChunkReader::lose_gop(const Fault& fault) {
+  const bool unsupported = fault.code == ErrorCode::kUnsupported;
+  const Event event = tell(Event::kGopLost, error_of(fault), chunk_offset_, true, !unsupported);
+  if (event != Event::kGopLost) return event;
   if (unsupported) {
     phase_ = Phase::kPassOver;
   } else {
     begin_search(used_);
   }
-  return Event::kGopLost;
+  return event;
 }
 
 /// So many packets were read as the header of the GOP says.

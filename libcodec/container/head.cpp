@@ -47,12 +47,14 @@ std::uint32_t* bound_of(StreamLimits& limits, std::uint64_t key) {
 
 Status check_version(const StreamHead& head) {
   if (head.major == kFormatMajor && head.minor == kFormatMinor) return {};
-  const auto name = [](int major, int minor) { return std::to_string(major) + "." + std::to_string(minor); };
-  const bool older = head.major == 0 && head.minor < kFormatMinor;
+  const auto name = [](std::uint16_t major, std::uint16_t minor) {
+    return decimal(major) + "." + decimal(minor);
+  };
   return stream_error(
       ErrorCode::kUnsupportedVersion, "§4.1",
       {"the stream has format version ", name(head.major, head.minor), ", this decoder reads ",
-       name(kFormatMajor, kFormatMinor), older ? ": encode it anew" : ": a later release is needed"});
+       name(kFormatMajor, kFormatMinor), ": ",
+       head.major == 0 && head.minor < kFormatMinor ? "encode it anew" : "a later release is needed"});
 }
 
 /// A bound as it is read; false where its value is out of range.
@@ -80,6 +82,33 @@ std::vector<std::uint8_t> write_head(const StreamLimits& limits) {
   return head.take();
 }
 
+namespace {
+
+// format-spec §4.1
+Fault parse_bounds(ByteReader& reader, StreamLimits& limits) {
+  constexpr const char* kSection = "§4.1";
+  std::size_t known = 0;
+  for (AscendingNumbers keys; reader.left() > 0;) {
+    const std::uint64_t key = reader.varint();
+    const std::uint64_t value = reader.varint();
+    if (!reader.ok()) return {kSection, "the bounds of the head do not fill it exactly"};
+    if (!keys.take(key)) return {"§3.5", "the keys of the head do not ascend"};
+    if (key != kDecoderMemory && bound_of(limits, key) == nullptr) {
+      if (!is_required(key)) continue;
+      return {kSection, "the head has a bound that this decoder does not know",
+              ErrorCode::kUnsupportedVersion};
+    }
+    ++known;
+    if (!take_bound(limits, key, value)) return {kSection, "a bound of the head is out of range"};
+  }
+  if (known < kKeys.size()) return {kSection, "the head lacks a bound"};
+  if (limits.decoder_memory < decoder_memory_needed(limits))
+    return {kSection, "the declared decoder memory is less than the declared bounds need"};
+  return {};
+}
+
+}  // namespace
+
 // format-spec §4.1
 Result<StreamHead> read_head(Bytes payload) {
   if (!can_allocate(kSmallThings)) return out_of_memory();
@@ -89,23 +118,7 @@ Result<StreamHead> read_head(Bytes payload) {
   head.minor = reader.u16();
   if (!reader.ok()) return malformed("§4.1", "the head is too short");
   if (Status version = check_version(head); !version.ok()) return version.error();
-  std::size_t known = 0;
-  for (AscendingNumbers keys; reader.left() > 0;) {
-    const std::uint64_t key = reader.varint();
-    const std::uint64_t value = reader.varint();
-    if (!reader.ok()) return malformed("§4.1", "the bounds of the head do not fill it exactly");
-    if (!keys.take(key)) return malformed("§3.5", "the keys of the head do not ascend");
-    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      if (!is_required(key)) continue;
-      return stream_error(ErrorCode::kUnsupportedVersion, "§4.1",
-                          {"the stream needs a decoder that knows the bound with key ", std::to_string(key)});
-    }
-    ++known;
-    if (!take_bound(head.limits, key, value)) return malformed("§4.1", "a bound of the head is out of range");
-  }
-  if (known < kKeys.size()) return malformed("§4.1", "the head lacks a bound");
-  if (head.limits.decoder_memory < decoder_memory_needed(head.limits))
-    return malformed("§4.1", "the declared decoder memory is less than the declared bounds need");
+  if (const Fault fault = parse_bounds(reader, head.limits)) return error_of(fault);
   return head;
 }
 
@@ -113,24 +126,29 @@ Result<StreamHead> read_head(Bytes payload) {
 Status check_declared(const StreamLimits& declared, const DecoderLimits& allowed) {
   struct Bound {
     const char* what;
-    std::uint64_t asked, allowed;
+    std::uint32_t StreamLimits::*declared;
+    std::uint32_t DecoderLimits::*allowed;
   };
-  const std::array bounds = {
-      Bound{"vertices", declared.vertices, allowed.vertices},
-      Bound{"faces", declared.faces, allowed.faces},
-      Bound{"frames per GOP", declared.frames_per_gop, allowed.frames_per_gop},
-      Bound{"bytes per packet", declared.packet_bytes, allowed.packet_bytes},
-      Bound{"meshes in force", declared.meshes, allowed.meshes},
-      Bound{"bytes per mesh", declared.mesh_bytes, allowed.mesh_bytes},
-      Bound{"bytes of decoder memory", declared.decoder_memory, allowed.memory},
+  static constexpr Bound kBounds[] = {
+      {"vertices", &StreamLimits::vertices, &DecoderLimits::vertices},
+      {"faces", &StreamLimits::faces, &DecoderLimits::faces},
+      {"frames per GOP", &StreamLimits::frames_per_gop, &DecoderLimits::frames_per_gop},
+      {"bytes per packet", &StreamLimits::packet_bytes, &DecoderLimits::packet_bytes},
+      {"meshes in force", &StreamLimits::meshes, &DecoderLimits::meshes},
+      {"bytes per mesh", &StreamLimits::mesh_bytes, &DecoderLimits::mesh_bytes},
   };
-  for (const Bound& bound : bounds) {
-    if (bound.asked <= bound.allowed) continue;
+  const auto above = [](const char* what, std::uint64_t asked, std::uint64_t most) {
     if (!can_allocate(kSmallThings)) return out_of_memory();
-    return stream_error(ErrorCode::kLimitExceeded, "§8.1",
-                        {"the stream declares ", std::to_string(bound.asked), " ", bound.what,
-                         ", the limit set here is ", std::to_string(bound.allowed)});
+    return stream_error(
+        ErrorCode::kLimitExceeded, "§8.1",
+        {"the stream declares ", decimal(asked), " ", what, ", the limit set here is ", decimal(most)});
+  };
+  for (const Bound& bound : kBounds) {
+    if (declared.*bound.declared > allowed.*bound.allowed)
+      return above(bound.what, declared.*bound.declared, allowed.*bound.allowed);
   }
+  if (declared.decoder_memory > allowed.memory)
+    return above("bytes of decoder memory", declared.decoder_memory, allowed.memory);
   return {};
 }
 

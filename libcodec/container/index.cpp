@@ -13,40 +13,41 @@ namespace {
 
 constexpr std::uint64_t kMostOffset = std::uint64_t{1} << 62;
 
-/// What is wrong with an index, found while it is read.
-struct Fault {
-  const char* sentence = nullptr;
-};
-
 /// Reads entry after entry.
 class IndexReader {
  public:
   IndexReader(Bytes payload, std::uint64_t index_offset) : reader_(payload), index_offset_(index_offset) {}
 
   Result<Index> run() {
-    const std::uint64_t count = reader_.varint();
-    if (!reader_.ok() || count > reader_.left() / kLeastEntryBytes)
-      return malformed("§4.6", "more index entries than bytes can hold");
-    if (!try_reserve(index_.entries, static_cast<std::size_t>(count))) return out_of_memory();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      if (const Fault fault = read_entry(); fault.sentence != nullptr)
-        return malformed("§4.6", fault.sentence);
-    }
-    if (!reader_.finished()) return malformed("§4.6", "index entries do not fill the chunk exactly");
+    if (const Fault fault = read_all()) return error_of(fault);
     return std::move(index_);
   }
 
  private:
+  static constexpr const char* kSection = "§4.6";
   static constexpr std::uint64_t kLeastEntryBytes = 3;
+
+  Fault read_all() {
+    const std::uint64_t count = reader_.varint();
+    if (!reader_.ok() || count > reader_.left() / kLeastEntryBytes)
+      return {kSection, "more index entries than bytes can hold"};
+    if (!try_reserve(index_.entries, static_cast<std::size_t>(count)))
+      return {"", "out of memory", ErrorCode::kOutOfMemory};
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (const Fault fault = read_entry()) return fault;
+    }
+    return reader_.finished() ? Fault() : Fault{kSection, "index entries do not fill the chunk exactly"};
+  }
 
   Fault read_entry() {
     const std::uint64_t kind = reader_.varint();
     const std::uint64_t distance = reader_.varint();
     ByteReader fields(reader_.bytes(reader_.varint()));
-    if (!reader_.ok()) return {"index entries do not fill the chunk exactly"};
-    if (distance == 0 || distance > kMostOffset - offset_) return {"an index entry is out of range"};
+    if (!reader_.ok()) return {kSection, "index entries do not fill the chunk exactly"};
+    if (distance == 0 || distance > kMostOffset - offset_)
+      return {kSection, "an index entry is out of range"};
     offset_ += distance;
-    if (offset_ >= index_offset_) return {"an index entry points behind the index"};
+    if (offset_ >= index_offset_) return {kSection, "an index entry points behind the index"};
     using Kind = IndexEntry::Kind;
     if (kind == 0 || kind > static_cast<std::uint64_t>(Kind::kDependentGop)) return {};
     IndexEntry entry;
@@ -55,8 +56,9 @@ class IndexReader {
     std::size_t planes = 0;
     if (entry.kind == Kind::kMesh) ++meshes_;
     if (entry.kind == Kind::kPlan) ++planes_;
-    if (entry.is_gop() && !read_gop(fields, entry, planes)) return {"a GOP's index entry is out of range"};
-    if (!fields.finished()) return {"the fields of an index entry do not fill it exactly"};
+    if (entry.is_gop() && !read_gop(fields, entry, planes))
+      return {kSection, "a GOP's index entry is out of range"};
+    if (!fields.finished()) return {kSection, "the fields of an index entry do not fill it exactly"};
     index_.entries.push_back(entry);
     index_.digest.add(entry, PlanesBack(back_).first(planes));
     return {};

@@ -1,12 +1,10 @@
 #include "container/mesh_payload.hpp"
 
-#include "base/allocation.hpp"
 #include "base/stream_error.hpp"
 #include "container/chunk.hpp"
 #include "container/numbers.hpp"
 
 #include <algorithm>
-#include <string>
 
 namespace tvg {
 
@@ -33,23 +31,24 @@ std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh) {
   return writer.take();
 }
 
+namespace {
+
 // format-spec §4.3
-Result<MeshLayout> read_mesh(Bytes payload) {
-  ByteReader reader(payload);
-  MeshLayout mesh{};
+Fault parse(ByteReader reader, MeshLayout& mesh) {
+  constexpr const char* kSection = "§4.3";
   const std::uint64_t vertices = reader.varint();
   const std::uint64_t faces = reader.varint();
-  if (!reader.ok()) return malformed("§4.3", "the mesh chunk is too short");
+  if (!reader.ok()) return {kSection, "the mesh chunk is too short"};
   if (vertices == 0 || vertices > kMaxVertexCount || faces >= 0x80000000u)
-    return malformed("§4.3", "the mesh's counts are out of range");
+    return {kSection, "the mesh's counts are out of range"};
   mesh.vertex_count = static_cast<std::uint32_t>(vertices);
   mesh.face_count = static_cast<std::uint32_t>(faces);
   bool has_connectivity = false;
   for (AscendingNumbers kinds; reader.left() > 0;) {
     const std::uint64_t kind = reader.varint();
     const Bytes content = reader.bytes(reader.varint());
-    if (!reader.ok()) return malformed("§4.3", "the sections of the mesh do not fill its chunk exactly");
-    if (!kinds.take(kind)) return malformed("§3.5", "the sections of the mesh do not ascend");
+    if (!reader.ok()) return {kSection, "the sections of the mesh do not fill its chunk exactly"};
+    if (!kinds.take(kind)) return {"§3.5", "the sections of the mesh do not ascend"};
     if (kind == kConnectivity) {
       has_connectivity = true;
       mesh.connectivity = content;
@@ -57,12 +56,18 @@ Result<MeshLayout> read_mesh(Bytes payload) {
       mesh.keeps_order = true;
       mesh.order = content;
     } else if (is_required(kind)) {
-      if (!can_allocate(kSmallThings)) return out_of_memory();
-      return stream_error(ErrorCode::kUnsupported, "§4.3",
-                          {"the mesh needs a decoder that knows its section ", std::to_string(kind)});
+      return {kSection, "the mesh has a section that this decoder does not know", ErrorCode::kUnsupported};
     }
   }
-  if (!has_connectivity) return malformed("§4.3", "the mesh has no connectivity");
+  if (!has_connectivity) return {kSection, "the mesh has no connectivity"};
+  return {};
+}
+
+}  // namespace
+
+Result<MeshLayout> read_mesh(Bytes payload) {
+  MeshLayout mesh{};
+  if (const Fault fault = parse(ByteReader(payload), mesh)) return error_of(fault);
   return mesh;
 }
 

@@ -6,15 +6,14 @@
 namespace tvg {
 
 // format-spec §4.9
-Result<PlanHeader> read_plan_header(Bytes payload) {
+Fault read_plan_header(Bytes payload, PlanHeader& plan) {
   ByteReader reader(payload);
-  PlanHeader plan;
   plan.mesh = reader.u32();
   plan.adds_to = reader.varint();
   plan.mode = reader.varint();
-  if (!reader.ok()) return malformed("§4.9", "the chunk of planes is too short");
-  if (plan.mode == kModeElp) return malformed("§4.9", "GOPs in mode elp share no planes");
-  return plan;
+  if (!reader.ok()) return {"§4.9", "the chunk of planes is too short"};
+  if (plan.mode == kModeElp) return {"§4.9", "GOPs in mode elp share no planes"};
+  return {};
 }
 
 }  // namespace tvg

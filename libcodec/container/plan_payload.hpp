@@ -1,5 +1,6 @@
 #pragma once
 #include "base/byte_io.hpp"
+#include "base/stream_error.hpp"
 
 #include <cstdint>
 
@@ -17,7 +18,7 @@ struct PlanHeader {
   std::uint64_t mode = 0;
 };
 
-/// Reads it from the front of a payload.
-Result<PlanHeader> read_plan_header(Bytes payload);
+/// Reads it from the front of a payload into `plan`.
+Fault read_plan_header(Bytes payload, PlanHeader& plan);
 
 }  // namespace tvg

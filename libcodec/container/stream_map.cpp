@@ -15,11 +15,11 @@ class NeededMeshes {
 
   /// False where there is no memory.
   bool add(std::uint64_t offset) {
-    const auto place = std::lower_bound(offsets_.begin(), offsets_.end(), offset);
-    if (place != offsets_.end() && *place == offset) return true;
-    const auto index = place - offsets_.begin();
+    auto place = offsets_.size();
+    while (place > 0 && offsets_[place - 1] > offset) --place;
+    if (place > 0 && offsets_[place - 1] == offset) return true;
     if (!try_grow(offsets_, 1)) return false;
-    offsets_.insert(offsets_.begin() + index, offset);
+    offsets_.insert(offsets_.begin() + static_cast<std::ptrdiff_t>(place), offset);
     if (offsets_.size() > most_) offsets_.erase(offsets_.begin());
     return true;
   }
@@ -88,9 +88,16 @@ std::vector<std::uint64_t> StreamMap::meshes_for(const Place& gop, std::uint32_t
 }
 
 const StreamMap::Place* StreamMap::at(std::uint64_t offset) const {
-  const auto lies_before = [](const Place& place, std::uint64_t value) { return place.entry.offset < value; };
-  const auto place = std::lower_bound(places_.begin(), places_.end(), offset, lies_before);
-  return place != places_.end() && place->entry.offset == offset ? &*place : nullptr;
+  std::size_t first = 0;
+  for (std::size_t end = places_.size(); first < end;) {
+    const std::size_t middle = first + (end - first) / 2;
+    if (places_[middle].entry.offset < offset) {
+      first = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return first < places_.size() && places_[first].entry.offset == offset ? &places_[first] : nullptr;
 }
 
 bool StreamMap::matches(std::span<const IndexEntry> entries) const {

@@ -41,14 +41,15 @@ Status StreamWriter::write_mesh_chunk(Bytes chunk) {
   hash.update(chunk);
   const std::uint32_t id = mesh_id(chunk);
   if (const auto* const known = meshes_.find(id)) {
-    if (known->value == hash.value()) return {};
+    if (known->number == hash.value()) return {};
     return Error{ErrorCode::kInvalidInput,
                  "two different meshes have the same checksum, by which a stream names them",
                  {},
                  {},
                  "§4.3"};
   }
-  if (!meshes_.put(id, offset_, hash.value(), meshes_in_force_)) return out_of_memory();
+  if (!meshes_.put({.id = id, .offset = offset_, .number = hash.value()}, meshes_in_force_))
+    return out_of_memory();
   index_.push_back({.offset = offset_, .kind = IndexEntry::Kind::kMesh});
   return write(chunk);
 }

@@ -43,7 +43,7 @@ class StreamWriter {
   std::uint64_t offset_ = 0;
   std::vector<IndexEntry> index_;
   std::uint32_t meshes_in_force_ = 1;
-  ChunkWindow<std::uint64_t> meshes_;  ///< hashes of the payloads, which tell meshes of one name apart
+  ChunkWindow meshes_;  ///< `number` is the payload's hash, which tells meshes of one name apart
 };
 
 }  // namespace tvg

@@ -1,7 +1,6 @@
 #pragma once
 #include "connectivity/mesh_coder.hpp"
 #include "container/chunk_reader.hpp"
-#include "container/chunk_window.hpp"
 #include "decoder/damage.hpp"
 #include "modes/gop_decoder.hpp"
 
@@ -47,7 +46,8 @@ class Decoder::State {
   std::optional<Event> step();
   Event take_chunk();
   std::optional<Event> take_mesh();
-  Result<std::shared_ptr<const CodedMesh>> decode_mesh_read() const;
+  Status decode_mesh_read();
+  std::shared_ptr<const CodedMesh> mesh_in_force(std::uint32_t id) const;
   bool show(std::shared_ptr<const CodedMesh> next);
   std::optional<Event> begin_gop();
   Event reject_gop(std::uint64_t missing, Error cause);
@@ -77,7 +77,6 @@ class Decoder::State {
   DamageLedger frames_;  ///< which are missing
   /// To be given out next, in this order.
   std::array<std::optional<Event>, 2> deferred_;
-  ChunkWindow<std::shared_ptr<const CodedMesh>> meshes_;  ///< those in force that could be decoded
   std::uint64_t gop_end_ = 0;  ///< number of the frame behind the GOP being read; 0 outside
   StreamMap map_;
   std::optional<std::uint64_t> target_;  ///< the frame sought: frames before it are not given out

@@ -16,9 +16,9 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
   if (!reader.has_head())
     return stream_error(ErrorCode::kInvalidArgument, "", {"the head of the stream has not been read yet"});
   if (map_.from_index() && frame >= map_.frame_count()) {
-    Error error = stream_error(ErrorCode::kInvalidArgument, "",
-                               {"there is no frame ", std::to_string(frame), ": the stream has ",
-                                std::to_string(map_.frame_count())});
+    Error error = stream_error(
+        ErrorCode::kInvalidArgument, "",
+        {"there is no frame ", decimal(frame), ": the stream has ", decimal(map_.frame_count())});
     error.frame = frame;
     return error;
   }
@@ -32,7 +32,6 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
   if (inside || beyond || gop_place == nullptr) return reader.input_offset();
   needed_ = map_.meshes_for(*gop_place, reader.head().limits.meshes);
   jump(*next_stop());
-  meshes_.keep_only(needed_);
   deferred_ = {};
   return reader.offset();
 }

@@ -4,6 +4,7 @@
 #include "container/chunk.hpp"
 #include "container/mesh_payload.hpp"
 #include "container/metadata.hpp"
+#include "quantization/lattice_over_encode.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +36,9 @@ Status check_options(const EncodeOptions& options) {
     return invalid_argument(
         "bits must be 1 to 24, and those of unimportant vertices at most those of important ones");
   }
-  if (options.step && !(std::isfinite(*options.step) && *options.step > 0)) {
-    return invalid_argument("the step must be a positive length in the mesh's units");
+  if (options.step && !(*options.step > 0 &&
+                        std::isfinite(std::ldexp(*options.step, options.fine_bits - options.coarse_bits)))) {
+    return invalid_argument("the step must be a positive length in the mesh's units, and finite");
   }
   if (options.predictor > Predictor::kElp) return invalid_argument("there is no such predictor");
   if (options.first_frame > kMaxFirstFrame)
@@ -49,7 +51,13 @@ Status check_options(const EncodeOptions& options) {
   }
   if (options.max_meshes == 0 || options.max_meshes > kMaxMeshesInForce)
     return invalid_argument("a decoder can be asked to keep 1 to 65536 meshes");
-  if (options.box && options.box->empty()) return invalid_argument("the box has no point");
+  if (options.box) {
+    if (options.box->empty()) return invalid_argument("the box has no point");
+    if (!std::isfinite(options.box->largest_extent())) return invalid_argument("the box is infinite");
+    const Result<Lattice> lattice =
+        lattice_over(*options.box, options.fine_bits, options.coarse_bits, options.step);
+    if (!lattice) return lattice.error();
+  }
   return check_metadata(options.metadata);
 }
 

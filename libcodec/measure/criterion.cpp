@@ -15,9 +15,10 @@ namespace tvg {
 namespace {
 
 constexpr std::array<Criterion, 6> kCriteria = {{
-    {"curv", "curvature and its change (Eq. 3)", curvature_criterion},
+    {"curv", "curvature and its change (Eq. 3)", curvature_criterion, check_curvature},
     {"skel", "whether the nearest joint bends (Eq. 6)", skeleton_criterion, check_skeleton, true},
-    {"curvature-norm", "curvature as sqrt(k1^2 + k2^2), and its change", curvature_norm_criterion},
+    {"curvature-norm", "curvature as sqrt(k1^2 + k2^2), and its change", curvature_norm_criterion,
+     check_curvature},
     {"velocity", "mean way from frame to frame", velocity_criterion},
     {"distance", "distance from a viewpoint", viewpoint_distance_criterion, check_viewpoint},
     {"weights", "values of your own", user_weights_criterion, check_user_weights},

@@ -1,5 +1,7 @@
 #include "measure/curvature.hpp"
 
+#include "base/errors.hpp"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -56,7 +58,7 @@ std::vector<double> change_and_mean(const CriterionInput& input,
       deviation[v] += std::abs(frame[v] - mean[v]) / frame_count;
     }
   }
-  const double alpha = input.options.alpha;
+  const double alpha = input.options.curv.alpha;
   std::vector<double> value(vertex_count);
   for (std::size_t v = 0; v < vertex_count; ++v) value[v] = alpha * deviation[v] + (1 - alpha) * mean[v];
   return value;
@@ -68,6 +70,11 @@ std::vector<double> curvature_criterion(const CriterionInput& input) {
     curvature.push_back(vertex_curvature(input.mesh(), input.topology.rings(), frame));
   }
   return change_and_mean(input, curvature);
+}
+
+Status check_curvature(const Importance& importance, const Mesh&, const Skeleton&) {
+  if (importance.curv.alpha >= 0 && importance.curv.alpha <= 1) return {};
+  return invalid_argument("alpha must lie between 0 and 1");
 }
 
 }  // namespace tvg

@@ -22,4 +22,7 @@ std::vector<double> change_and_mean(const CriterionInput& input,
 /// CURV: Eq. 3 of Eq. 1.
 std::vector<double> curvature_criterion(const CriterionInput& input);
 
+/// kInvalidArgument unless alpha is in range; of every criterion that goes by Eq. 3.
+Status check_curvature(const Importance& importance, const Mesh& mesh, const Skeleton& skeleton);
+
 }  // namespace tvg

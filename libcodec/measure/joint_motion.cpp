@@ -139,10 +139,10 @@ std::vector<std::uint32_t> nearest_joints(std::span<const float> positions, std:
 }
 
 std::vector<double> skeleton_criterion(const CriterionInput& input) {
-  const std::vector<std::uint32_t> joint_of = input.options.skel_region == JointRegion::kHeaviest
+  const std::vector<std::uint32_t> joint_of = input.options.skel.region == JointRegion::kHeaviest
                                                   ? input.skeleton.heaviest_joint
                                                   : nearest_joints(input.frames[0], input.joints[0]);
-  const double alpha = input.options.skel_alpha;
+  const double alpha = input.options.skel.alpha;
   std::vector<double> value(joint_of.size());
   for (std::size_t v = 0; v < value.size(); ++v)
     value[v] = input.motions[joint_of[v]].dynamic ? alpha : 1 - alpha;
@@ -151,10 +151,10 @@ std::vector<double> skeleton_criterion(const CriterionInput& input) {
 
 Status check_skeleton(const Importance& importance, const Mesh& mesh, const Skeleton& skeleton) {
   const std::size_t joint_count = skeleton.joint_names.size();
-  if (!(importance.skel_alpha >= 0 && importance.skel_alpha <= 1)) {
+  if (!(importance.skel.alpha >= 0 && importance.skel.alpha <= 1)) {
     return invalid_argument("alpha of the skeleton criterion must lie between 0 and 1");
   }
-  if (importance.skel_threshold && !(*importance.skel_threshold >= 0)) {
+  if (importance.skel.threshold && !(*importance.skel.threshold >= 0)) {
     return invalid_argument("the threshold of the skeleton criterion must be 0 or more degrees per frame");
   }
   if (joint_count == 0) return invalid_argument("the criterion skel needs a skeleton, and there is none");
@@ -168,7 +168,7 @@ Status check_skeleton(const Importance& importance, const Mesh& mesh, const Skel
                               std::to_string(skeleton.parents[j]));
     }
   }
-  if (importance.skel_region != JointRegion::kHeaviest) return {};
+  if (importance.skel.region != JointRegion::kHeaviest) return {};
   if (skeleton.heaviest_joint.size() != mesh.vertex_count) {
     return invalid_argument(skeleton.heaviest_joint.empty()
                                 ? "the skeleton has no skin weights to give vertices to joints"

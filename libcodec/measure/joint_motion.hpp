@@ -27,7 +27,7 @@ std::vector<JointMotion> judge_joints(const std::vector<double>& angle_sums, std
 /// `joints` [joint][xyz], at least one.
 std::vector<std::uint32_t> nearest_joints(std::span<const float> positions, std::span<const float> joints);
 
-/// SKEL (Eq. 6): skel_alpha at vertices that belong to a dynamic joint, 1 - skel_alpha at others.
+/// SKEL (Eq. 6): its alpha at vertices that belong to a dynamic joint, 1 - alpha at others.
 std::vector<double> skeleton_criterion(const CriterionInput& input);
 
 Status check_skeleton(const Importance& importance, const Mesh& mesh, const Skeleton& skeleton);

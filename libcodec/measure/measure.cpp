@@ -63,9 +63,6 @@ Status check_importance(const Importance& importance, const Mesh& mesh, const Sk
   if (!(importance.share >= 0 && importance.share <= 1)) {
     return invalid_argument("the share of important vertices must lie between 0 and 1");
   }
-  if (!(importance.alpha >= 0 && importance.alpha <= 1)) {
-    return invalid_argument("alpha must lie between 0 and 1");
-  }
   if (importance.smoothing > kMaxSmoothing) {
     return invalid_argument("the cost can be averaged " + std::to_string(kMaxSmoothing) + " times at most");
   }
@@ -98,7 +95,7 @@ Result<Measure> Measurer::measure(std::span<const FramePositions> frames,
   Measure result;
   if (with_joints) {
     result.joints =
-        judge_joints(joint_angle_sums(skeleton_, joints), joints.size() - 1, importance_.skel_threshold);
+        judge_joints(joint_angle_sums(skeleton_, joints), joints.size() - 1, importance_.skel.threshold);
   }
   result.cost =
       cost(terms_of(importance_), {*topology_, frames, importance_, skeleton_, joints, result.joints});

@@ -12,7 +12,7 @@ std::vector<double> viewpoint_distance_criterion(const CriterionInput& input) {
   const double diagonal = box_around(input.frames).diagonal();
   if (!(diagonal > 0)) return distance;
   const double scale = 1 / (diagonal * static_cast<double>(input.frames.size()));
-  const auto& [x, y, z] = input.options.viewpoint;
+  const auto& [x, y, z] = input.options.distance.viewpoint;
   for (const FramePositions& frame : input.frames) {
     for (std::size_t v = 0; v < distance.size(); ++v) {
       distance[v] += scale * std::hypot(frame[3 * v] - x, frame[3 * v + 1] - y, frame[3 * v + 2] - z);
@@ -22,7 +22,7 @@ std::vector<double> viewpoint_distance_criterion(const CriterionInput& input) {
 }
 
 Status check_viewpoint(const Importance& importance, const Mesh&, const Skeleton&) {
-  const bool finite = std::all_of(importance.viewpoint.begin(), importance.viewpoint.end(),
+  const bool finite = std::all_of(importance.distance.viewpoint.begin(), importance.distance.viewpoint.end(),
                                   [](double x) { return std::isfinite(x); });
   if (finite) return {};
   return invalid_argument("the viewpoint must be a place in the mesh's units");

@@ -13,20 +13,20 @@ namespace tvg {
 
 // format-spec §7.4
 Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh) {
-  const Result<ElpHeader> elp = read_elp_header(header);
-  if (!elp) return elp.error();
+  ElpHeader elp;
+  if (Status status = read_elp_header(header, elp); !status.ok()) return status;
   const std::size_t vertex_count = mesh->gates.size();
   if (!can_allocate(vertex_count * (PositionCoder::kBytesPerVertex + 1) + PositionCoder::kMostModelBytes))
     return out_of_memory();
   mesh_ = std::move(mesh);
-  channels_ = elp->channels;
-  lattice_ = elp->lattice;
-  info_ = gop_info(header, *elp);
+  channels_ = elp.channels;
+  lattice_ = elp.lattice;
+  info_ = gop_info(header, elp);
   info_.flagged = static_cast<std::uint32_t>(vertex_count);
   flags_.clear();
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
-    RangeDecoder coder(elp->flags);
+    RangeDecoder coder(elp.flags);
     code_flags(coder, mesh_->gates, flags_);
     if (!coder.finished()) return malformed("§6.1", "the importance flags do not fill their bytes exactly");
     info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));

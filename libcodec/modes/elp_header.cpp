@@ -1,49 +1,66 @@
 #include "modes/elp_header.hpp"
 
-#include "base/allocation.hpp"
 #include "base/stream_error.hpp"
 #include "container/numbers.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 namespace tvg {
 
 namespace {
 
+constexpr const char* kSection = "§4.5.1";
+constexpr Fault kShort{kSection, "the GOP's header is too short"};
+
 /// Channel numbers in front of the other fields; all but the first may be unknown.
 // format-spec §3.5, §4.5.1
-Status read_channels(ByteReader& reader, Channels& channels) {
+Fault parse_channels(ByteReader& reader, Channels& channels) {
   const std::uint64_t count = reader.varint();
   if (!reader.ok() || count == 0 || count > Channels::kMost)
-    return malformed("§4.5.1", "the number of the GOP's channels is out of range");
+    return {kSection, "the number of the GOP's channels is out of range"};
   channels.count = static_cast<std::size_t>(count);
   AscendingNumbers ascending;
-  std::uint64_t unknown = 0;
+  bool unknown = false;
   for (std::size_t i = 0; i < channels.count; ++i) {
     const std::uint64_t channel = reader.varint();
-    if (!reader.ok()) return malformed("§4.5.1", "the GOP's header is too short");
+    if (!reader.ok()) return kShort;
     if (i == 0 && channel != kPositionsChannel)
-      return malformed("§4.5.1", "the first channel of a GOP is not positions");
-    if (!ascending.take(channel)) return malformed("§3.5", "the channels of a GOP do not ascend");
-    if (i > 0 && unknown == 0 && is_required(channel)) unknown = channel;
+      return {kSection, "the first channel of a GOP is not positions"};
+    if (!ascending.take(channel)) return {"§3.5", "the channels of a GOP do not ascend"};
+    unknown = unknown || (i > 0 && is_required(channel));
     channels.numbers[i] = channel;
   }
-  if (unknown == 0) return {};
-  if (!can_allocate(kSmallThings)) return out_of_memory();
-  return stream_error(ErrorCode::kUnsupported, "§4.5.1",
-                      {"the GOP needs a decoder that knows channel ", std::to_string(unknown)});
+  if (unknown)
+    return {kSection, "the GOP has a channel that this decoder does not know", ErrorCode::kUnsupported};
+  return {};
 }
 
-Status check_lattice(const Lattice& lattice) {
+Fault fault_in(const Lattice& lattice) {
   if (lattice.coarse_bits < kMinBits || lattice.coarse_bits > lattice.fine_bits ||
       lattice.fine_bits > kMaxBits)
-    return malformed("§4.5.1", "the GOP's bits are out of range");
+    return {kSection, "the GOP's bits are out of range"};
   const bool finite =
       std::all_of(lattice.origin.begin(), lattice.origin.end(), [](double x) { return std::isfinite(x); });
   if (!finite || !std::isfinite(lattice.step) || lattice.step <= 0)
-    return malformed("§4.5.1", "the GOP's lattice has no finite origin or no positive step");
+    return {kSection, "the GOP's lattice has no finite origin or no positive step"};
+  return {};
+}
+
+// format-spec §4.5.1
+Fault parse(const GopHeader& header, ElpHeader& elp) {
+  if (!header.planes.empty()) return {kSection, "a GOP in mode elp names planes"};
+  ByteReader reader(header.fields);
+  if (const Fault fault = parse_channels(reader, elp.channels)) return fault;
+  Lattice& lattice = elp.lattice;
+  lattice.fine_bits = reader.u8();
+  lattice.coarse_bits = reader.u8();
+  for (double& coordinate : lattice.origin) coordinate = reader.f64();
+  lattice.step = reader.f64();
+  if (!reader.ok()) return kShort;
+  if (const Fault fault = fault_in(lattice)) return fault;
+  elp.flags = reader.bytes(reader.left());
+  if (!lattice.hybrid() && !elp.flags.empty()) return {kSection, "a GOP with one lattice carries flags"};
   return {};
 }
 
@@ -61,24 +78,9 @@ std::vector<std::uint8_t> write_elp_header(const Lattice& lattice, Bytes flags) 
   return writer.take();
 }
 
-// format-spec §4.5.1
-Result<ElpHeader> read_elp_header(const GopHeader& header) {
-  ElpHeader elp;
-  if (!header.planes.empty()) return malformed("§4.5.1", "a GOP in mode elp names planes");
-  ByteReader reader(header.fields);
-  const Status channels = read_channels(reader, elp.channels);
-  if (!channels.ok()) return channels.error();
-  Lattice& lattice = elp.lattice;
-  lattice.fine_bits = reader.u8();
-  lattice.coarse_bits = reader.u8();
-  for (double& coordinate : lattice.origin) coordinate = reader.f64();
-  lattice.step = reader.f64();
-  if (!reader.ok()) return malformed("§4.5.1", "the GOP's header is too short");
-  if (Status status = check_lattice(lattice); !status.ok()) return status.error();
-  elp.flags = reader.bytes(reader.left());
-  if (!lattice.hybrid() && !elp.flags.empty())
-    return malformed("§4.5.1", "a GOP with one lattice carries flags");
-  return elp;
+Status read_elp_header(const GopHeader& header, ElpHeader& elp) {
+  const Fault fault = parse(header, elp);
+  return fault ? Status(error_of(fault)) : Status();
 }
 
 // format-spec §4.5.2

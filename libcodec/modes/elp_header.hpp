@@ -32,8 +32,8 @@ struct ElpHeader {
 };
 
 std::vector<std::uint8_t> write_elp_header(const Lattice& lattice, Bytes flags);
-/// kUnsupported where a channel is not known that must be.
-Result<ElpHeader> read_elp_header(const GopHeader& header);
+/// Reads it into `elp`. kUnsupported where a channel is not known that must be.
+Status read_elp_header(const GopHeader& header, ElpHeader& elp);
 
 /// The piece of a frame's packet that holds positions (§4.5.2).
 Result<Bytes> positions_piece(const Channels& channels, Bytes packet);

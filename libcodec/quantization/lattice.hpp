@@ -9,9 +9,10 @@
 // The integer lattice positions are quantized to (format-spec §7.1), in one or two nested resolutions.
 namespace tvg {
 
-/// A cubic lattice over a bounding box: cell i of an axis covers [origin + i step, origin + (i + 1) step).
+/// A cubic lattice that covers a bounding box: cell i of an axis covers [origin + i step, origin + (i + 1)
+/// step).
 struct Lattice {
-  std::array<double, 3> origin{};  ///< smallest corner of the box, in the mesh's units
+  std::array<double, 3> origin{};  ///< smallest corner of the lattice, in the mesh's units
   double step = 1;                 ///< edge of a fine cell (B2), in the mesh's units; positive
   int fine_bits = 11;              ///< B2: important vertices have indices below 2^B2
   int coarse_bits = 11;            ///< B1 <= B2: the other vertices have indices below 2^B1

@@ -9,6 +9,17 @@ const Skeleton& FrameSource::skeleton() const {
   return none;
 }
 
+Status FrameSource::skip_frames(std::uint64_t count) {
+  FramePositions frame(3 * std::size_t{mesh().vertex_count});
+  for (; count > 0; --count) {
+    const Result<bool> read = read_frame(frame);
+    if (!read) return read.error();
+    if (!*read)
+      return Error{ErrorCode::kInvalidArgument, "the sequence ends before the frames to be passed over"};
+  }
+  return {};
+}
+
 const Skeleton& SequenceSource::skeleton() const {
   return joints_ != nullptr ? joints_->skeleton : FrameSource::skeleton();
 }

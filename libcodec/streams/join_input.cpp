@@ -50,7 +50,7 @@ Result<ChunkReader::Event> JoinInputReader::next() {
 }
 
 /// Keeps of a structure what is passed on later.
-Status JoinInputReader::use(ChunkReader::Event event) {
+void JoinInputReader::use(ChunkReader::Event event) {
   const Bytes raw = reader_.raw();
   switch (event) {
     case ChunkReader::Event::kChunk: {
@@ -65,8 +65,7 @@ Status JoinInputReader::use(ChunkReader::Event event) {
     case ChunkReader::Event::kMesh: {
       std::vector<std::uint8_t> chunk(gop_start_);
       chunk.insert(chunk.end(), raw.begin(), raw.end());
-      if (!meshes_.put(reader_.mesh_id(), reader_.chunk_offset(), std::move(chunk), limits().meshes))
-        return out_of_memory();
+      reader_.keep(std::make_shared<const std::vector<std::uint8_t>>(std::move(chunk)));
       break;
     }
     case ChunkReader::Event::kGop:
@@ -77,14 +76,13 @@ Status JoinInputReader::use(ChunkReader::Event event) {
     default:
       break;
   }
-  return {};
 }
 
 Status JoinInputReader::begin() {
   for (;;) {
     const Result<ChunkReader::Event> event = next();
     if (!event) return event.error();
-    if (Status status = use(*event); !status.ok()) return status;
+    use(*event);
     if (*event != ChunkReader::Event::kChunk) continue;
     const ChunkKind kind = kind_of(reader_.chunk());
     if (kind != ChunkKind::kHead && kind != ChunkKind::kMetadata) return {};
@@ -96,7 +94,7 @@ Result<bool> JoinInputReader::next_gop() {
     const Result<ChunkReader::Event> event = next();
     if (!event) return event.error();
     if (*event == ChunkReader::Event::kEnd) return false;
-    if (Status status = use(*event); !status.ok()) return status.error();
+    use(*event);
     if (*event == ChunkReader::Event::kGop) return true;
   }
 }

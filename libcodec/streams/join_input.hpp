@@ -28,7 +28,9 @@ class JoinInputReader {
   const StreamLimits& limits() const { return reader_.head().limits; }
   const Metadata& metadata() const { return metadata_; }
   /// The chunk of the mesh that the GOP names.
-  Bytes mesh() const { return meshes_.find(gop_mesh_)->value; }
+  Bytes mesh() const {
+    return *static_cast<const std::vector<std::uint8_t>*>(reader_.meshes().find(gop_mesh_)->content.get());
+  }
   /// Of the GOP: its chunk from the first byte to the end of its header packet, and its frames.
   Bytes gop_start() const { return gop_start_; }
   std::uint32_t gop_frames() const { return gop_frames_; }
@@ -38,14 +40,13 @@ class JoinInputReader {
  private:
   /// The next event that is neither a want of bytes nor anything wrong; what is wrong is an error.
   Result<ChunkReader::Event> next();
-  Status use(ChunkReader::Event event);
+  void use(ChunkReader::Event event);
   Error located(Error error) const;
 
   JoinInput input_;
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   Metadata metadata_;
-  ChunkWindow<std::vector<std::uint8_t>> meshes_;  ///< whole chunks of those in force
   std::uint32_t gop_mesh_ = 0;
   std::vector<std::uint8_t> gop_start_;  ///< or what was read last of another chunk
   std::uint32_t gop_frames_ = 0;

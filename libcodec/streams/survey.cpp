@@ -18,8 +18,8 @@ constexpr std::size_t kPieceBytes = std::size_t{1} << 13;
 
 class Surveyor {
  public:
-  Surveyor(const StreamBytes& read, const DecoderLimits& limits)
-      : read_(read), reader_(limits), piece_(kPieceBytes) {}
+  Surveyor(const StreamBytes& read, std::optional<std::uint64_t> size, const DecoderLimits& limits)
+      : read_(read), size_(size), reader_(limits), piece_(kPieceBytes) {}
 
   Result<StreamSurvey> run() {
     using Event = ChunkReader::Event;
@@ -38,12 +38,22 @@ class Surveyor {
 
  private:
   Status read_on() {
-    reader_.skip();
+    if (size_) {
+      reader_.skip();
+      if (reader_.input_offset() > *size_) return truncated();
+    }
     const Result<std::size_t> got = read_(reader_.input_offset(), piece_);
     if (!got) return got.error();
     if (*got == 0) reader_.finish();
     reader_.push(Bytes(piece_).first(*got));
     return {};
+  }
+
+  /// A chunk says that it goes on behind the last byte.
+  Error truncated() const {
+    Error error = stream_error(ErrorCode::kTruncated, "§3.4", {"the stream ends before it is complete"});
+    error.byte_offset = size_;
+    return error;
   }
 
   void take(ChunkReader::Event event) {
@@ -89,13 +99,14 @@ class Surveyor {
 
   void take_gop() {
     const GopHeader& header = reader_.gop();
-    const Result<ElpHeader> elp = read_elp_header(header);
+    ElpHeader elp;
+    const Status status = read_elp_header(header, elp);
     frames_ += header.frame_count;
-    if (!elp) {
-      find(elp.error());
+    if (!status.ok()) {
+      find(status.error());
       return;
     }
-    GopInfo gop = gop_info(header, *elp);
+    GopInfo gop = gop_info(header, elp);
     gop.first_frame = frames_ - header.frame_count;
     gop.bytes = reader_.chunk().total_size();
     gop.header_bytes = reader_.content().size() - gop.flag_bytes;
@@ -110,6 +121,7 @@ class Surveyor {
   }
 
   const StreamBytes& read_;
+  const std::optional<std::uint64_t> size_;
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   StreamSurvey result_;
@@ -123,9 +135,10 @@ std::uint64_t StreamSurvey::frames() const {
   return gops.empty() ? 0 : gops.back().first_frame + gops.back().frame_count;
 }
 
-Result<StreamSurvey> survey(const StreamBytes& read, const DecoderLimits& limits) {
+Result<StreamSurvey> survey(const StreamBytes& read, std::optional<std::uint64_t> size,
+                            const DecoderLimits& limits) {
   try {
-    return Surveyor(read, limits).run();
+    return Surveyor(read, size, limits).run();
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }

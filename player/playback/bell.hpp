@@ -2,7 +2,7 @@
 #include <atomic>
 #include <cstdint>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Wakes one thread that waits for any of several things. It counts its strokes, so that none is missed
 /// between looking and waiting: take strokes(), look whether there is anything to do, wait_beyond() them. May
@@ -21,4 +21,4 @@ class Bell {
   std::atomic<std::uint32_t> strokes_{0};
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 BlockCache::BlockCache(std::uint64_t limit)
     : most_blocks_(static_cast<std::size_t>(std::max<std::uint64_t>(limit / kBlockBytes, 4))) {}
@@ -82,4 +82,4 @@ std::vector<ByteRange> BlockCache::ranges() const {
   return ranges;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

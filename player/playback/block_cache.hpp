@@ -7,7 +7,7 @@
 
 #include <tvg/decoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Bytes of a stream that came in any order, as many as memory is given for. Those used longest ago go first,
 /// but not those that the reader comes to next.
@@ -45,4 +45,4 @@ class BlockCache {
   std::uint64_t uses_ = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

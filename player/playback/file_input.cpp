@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 FileInput::FileInput(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
 
@@ -53,4 +53,4 @@ InputStatus FileInput::status() const {
   return {InputStatus::Activity::kResting, "", 0};
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A file. It may grow while it is read: its end is where it ends at the moment.
 class FileInput final : public StreamInput {
@@ -31,4 +31,4 @@ class FileInput final : public StreamInput {
   std::atomic<bool> cancelled_ = false;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

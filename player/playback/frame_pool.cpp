@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Where frames wait that nobody holds. Frames outside keep it.
 class FramePool::Shelf {
@@ -66,4 +66,4 @@ void FramePool::drop_free() {
   while (shelf_->get() != nullptr) --made_;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <memory>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Frames that are used again and again, so that playing allocates next to nothing. Used by one thread; what
 /// it gave out may be released by any, also after the pool has gone.
@@ -33,4 +33,4 @@ class FramePool {
   std::size_t limit_ = 4;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

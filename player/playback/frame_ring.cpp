@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 void FrameRing::set_capacity(std::size_t capacity) {
   capacity_ = std::max<std::size_t>(capacity, 2);
@@ -99,4 +99,4 @@ std::vector<FrameRun> FrameRing::runs() const {
   return merged;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

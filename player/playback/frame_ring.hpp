@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A run of frames: `count` of them from `first` on.
 struct FrameRun {
@@ -71,4 +71,4 @@ class FrameRing {
   std::uint64_t next_ = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 #include <utility>
 
 // The thread that fetches.
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -284,4 +284,4 @@ void HttpInput::finish_aside(int code) {
   news_.notify_all();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 #include <utility>
 
 // What readers ask of the input. http_downloading.cpp has the thread that fetches.
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -158,4 +158,4 @@ void HttpInput::wake() {
   if (multi_ != nullptr) curl_multi_wakeup(multi_);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 class HttpTransfer;
 struct HttpHead;
@@ -114,4 +114,4 @@ class HttpInput final : public StreamInput {
   std::thread thread_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

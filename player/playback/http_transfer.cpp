@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -135,4 +135,4 @@ std::size_t HttpTransfer::on_body(char* data, std::size_t size, std::size_t coun
   return CURL_WRITEFUNC_ERROR;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What a transfer asks for.
 struct HttpRequest {
@@ -77,4 +77,4 @@ class HttpTransfer {
   char error_[CURL_ERROR_SIZE] = {};
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

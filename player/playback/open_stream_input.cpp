@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 std::unique_ptr<StreamInput> open_stream_input(const std::string& location) {
   if (location.starts_with("http://") || location.starts_with("https://")) {
@@ -22,15 +22,16 @@ std::unique_ptr<StreamInput> open_stream_input(const std::string& location) {
   const int descriptor = standard_input ? ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)
                                         : ::open(location.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
-    throw ToolError(ExitStatus::kIo, fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
+    throw cli::ToolError(cli::ExitStatus::kIo,
+                         fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
   }
   struct stat facts {};
   if (::fstat(descriptor, &facts) != 0 || S_ISDIR(facts.st_mode)) {
     ::close(descriptor);
-    throw ToolError(ExitStatus::kIo, fmt::format("{}: is a folder; a .tvg file is expected", name));
+    throw cli::ToolError(cli::ExitStatus::kIo, fmt::format("{}: is a folder; a .tvg file is expected", name));
   }
   if (S_ISREG(facts.st_mode)) return std::make_unique<FileInput>(name, descriptor);
   return std::make_unique<PipeInput>(name, descriptor);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -12,7 +12,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 PipeInput::PipeInput(std::string name, int descriptor, std::uint64_t limit)
     : name_(std::move(name)),
@@ -126,4 +126,4 @@ InputStatus PipeInput::status() const {
           received};
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

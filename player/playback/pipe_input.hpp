@@ -4,7 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Bytes that come once, front to back: a pipe, a terminal, a socket. What has come is kept, so that one can
 /// go back, up to a limit beyond which the oldest bytes are dropped.
@@ -47,4 +47,4 @@ class PipeInput : public StreamInput {
   bool cancelled_ = false;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

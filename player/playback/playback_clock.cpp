@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 double PlaybackClock::position(double now) const {
   return moving() ? anchor_position_ + std::max(0.0, now - anchor_time_) * rate_ * speed_ : anchor_position_;
@@ -121,4 +121,4 @@ void PlaybackClock::resume(double now) {
   anchor(static_cast<double>(wanted_), now);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

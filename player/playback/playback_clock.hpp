@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Says which frame is to be shown at a time. It stands still while it is paused, and while the frame it
 /// wants is not there; then it goes on from that frame. Times are in seconds, from any point on, and never
@@ -82,4 +82,4 @@ class PlaybackClock {
   double waited_seconds_ = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

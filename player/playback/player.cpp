@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -71,7 +71,8 @@ void Player::adopt_rate(double now) {
   if (frame_) return;
   const Metadata metadata = loader_.snapshot().metadata;
   const auto fps = metadata.find("fps");
-  const std::optional<double> rate = fps == metadata.end() ? std::nullopt : parse_frame_rate(fps->second);
+  const std::optional<double> rate =
+      fps == metadata.end() ? std::nullopt : cli::parse_frame_rate(fps->second);
   clock_.set_rate(forced_rate_.value_or(rate.value_or(PlaybackClock::kDefaultRate)), now);
 }
 
@@ -181,4 +182,4 @@ PlayerSnapshot Player::snapshot() const {
   return snapshot;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 struct PlayerOptions {
   LoaderOptions loader;
@@ -92,4 +92,4 @@ class Player {
   std::uint64_t wanted_ = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,12 +7,13 @@
 #include <tvg/decoder.hpp>
 #include <tvg/types.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What the frames of a GOP share.
 struct PlayerGop {
   GopInfo info;
   std::vector<std::uint8_t> flags;  ///< [vertex]: 1 for an important one
+  bool keeps_vertex_order = true;   ///< vertices come in the order of the sequence that was encoded
 };
 
 /// A frame ready to be drawn. Frames are recycled: one is never changed while somebody holds it.
@@ -42,4 +43,4 @@ class FrameDecorator {
   virtual void on_frame(PlayerFrame& frame) = 0;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -9,7 +9,7 @@
 #include <tvg/normals.hpp>
 
 // The decoding thread of the loader.
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -250,6 +250,7 @@ void StreamLoader::begin_gop() {
   gop->info.first_frame += base_;
   gop->flags.resize(decoder_->mesh().vertex_count);
   decoder_->copy_flags(gop->flags);
+  gop->keeps_vertex_order = decoder_->mesh_info().keeps_vertex_order;
   used_decorator_.reset();
   const std::lock_guard lock(mutex_);
   facts_.note_gop({gop->info.first_frame, gop->info.frame_count, decoder_->chunk().offset, gop->info.bytes});
@@ -377,4 +378,4 @@ void StreamLoader::fail(const Error& error) {
   state_.message = names_input ? error.message : input_->name() + ": " + error.describe();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::vector<FrameRun> frames_of_bytes(const std::vector<GopMark>& marks,
   return runs;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

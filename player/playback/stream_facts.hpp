@@ -11,7 +11,7 @@
 
 #include <tvg/decoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Where a GOP lies.
 struct GopMark {
@@ -74,4 +74,4 @@ class StreamFacts {
   std::map<std::uint64_t, std::uint64_t> packets_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 
 #include <tvg/decoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What an input is about, for people.
 struct InputStatus {
@@ -62,4 +62,4 @@ class StreamInput {
 /// (kIo) where a file cannot be opened; failures of the network are those of read().
 std::unique_ptr<StreamInput> open_stream_input(const std::string& location);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

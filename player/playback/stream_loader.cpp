@@ -6,7 +6,7 @@
 
 // What other threads ask of the loader, and the thread that fetches the index. stream_decoding.cpp has the
 // rest.
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -151,4 +151,4 @@ std::optional<std::vector<IndexEntry>> StreamLoader::fetch_index(std::uint64_t& 
   return std::move(*index);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -16,7 +16,7 @@
 
 #include <tvg/decoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 struct LoaderOptions {
   DecoderLimits limits{};
@@ -175,4 +175,4 @@ class StreamLoader {
   std::thread thread_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,19 +1,19 @@
 #include "player/render/measure_picture.hpp"
 
+#include "player/overlay/overlay_values.hpp"
 #include "player/render/picture.hpp"
 #include "player/view/image.hpp"
-#include "player/view/overlay.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
-Legend cost_legend(const std::string& criteria, const ValueRange& range) {
+Legend cost_legend(const std::string& criteria, const cli::ValueRange& range) {
   Legend legend;
-  legend.map = ColourMap::kViridis;
+  legend.map = cli::ColourMap::kViridis;
   legend.title = "cost";
   legend.note = criteria;
   legend.smallest = double{range.smallest};
@@ -24,7 +24,7 @@ Legend cost_legend(const std::string& criteria, const ValueRange& range) {
 Legend flags_legend(const std::vector<std::uint8_t>& flags) {
   const auto important = static_cast<double>(std::count(flags.begin(), flags.end(), 1));
   Legend legend;
-  legend.map = ColourMap::kFlags;
+  legend.map = cli::ColourMap::kFlags;
   legend.title = "importance";
   legend.flagged = fmt::format("important ({:.1f} %)", 100 * important / static_cast<double>(flags.size()));
   legend.plain = "other";
@@ -33,7 +33,7 @@ Legend flags_legend(const std::vector<std::uint8_t>& flags) {
 
 }  // namespace
 
-void draw_measure_picture(const std::string& path, const FrameSource& source, const MeasuredFrame& frame,
+void draw_measure_picture(const std::string& path, const FrameSource& source, const cli::MeasuredFrame& frame,
                           const std::string& criteria, const Look& look) {
   const std::vector<Cell> cells = sheet_cells(look.width, look.height, 2, 1);
   PicturePainter painter(look.width, look.height, look.style, true);
@@ -45,13 +45,17 @@ void draw_measure_picture(const std::string& path, const FrameSource& source, co
   camera.fit_closely(bounds, up, static_cast<double>(cells[0].width) / cells[0].height);
   painter.set_scene(bounds, up, camera);
 
-  const ValueRange range = cost_range(frame.cost);
-  ShownFrame shown{frame.number, 0, std::make_shared<const Mesh>(source.mesh()), frame.positions, frame.cost};
+  const cli::ValueRange range = cli::cost_range(frame.cost);
+  ShownFrame shown;
+  shown.number = frame.number;
+  shown.mesh = std::make_shared<const Mesh>(source.mesh());
+  shown.positions = frame.positions;
+  shown.values = frame.cost;
   painter.begin();
-  scale_values(shown.values, range);
-  painter.draw(shown, PicturePainter::Which::kShown, ColourMap::kViridis, cells[0]);
+  cli::scale_values(shown.values, range);
+  painter.draw(shown, PicturePainter::Which::kShown, cli::ColourMap::kViridis, cells[0]);
   importance_values(frame.flags, shown.values);
-  painter.draw(shown, PicturePainter::Which::kReference, ColourMap::kFlags, cells[1]);
+  painter.draw(shown, PicturePainter::Which::kReference, cli::ColourMap::kFlags, cells[1]);
   if (!frame.joints.empty()) {
     for (const Cell& cell : cells) painter.pose({source.skeleton(), frame.joints, frame.dynamic}, cell);
     painter.label(cells[1], "orange joints bend");
@@ -62,4 +66,4 @@ void draw_measure_picture(const std::string& path, const FrameSource& source, co
   write_png(path, painter.finish());
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

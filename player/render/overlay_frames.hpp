@@ -1,38 +1,34 @@
 #pragma once
+#include "player/overlay/overlay_colours.hpp"
+#include "player/overlay/reference_frames.hpp"
 #include "player/render/render_options.hpp"
-#include "player/render/shown_frames.hpp"
-#include "player/view/text_layer.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
-/// The frames that `tvg render` shows, with the values of its overlay, and beside them those of the
-/// reference. Broken input and sequences that do not fit together are ToolErrors.
+/// The frames that `tvg render` shows, coloured by its overlay, and beside them those of the reference.
+/// Broken input and sequences that do not fit together are ToolErrors.
 class OverlayFrames {
  public:
   explicit OverlayFrames(const RenderOptions& options);
 
   /// Goes back to the first frame; false where an input can be read only once.
   bool rewind();
-  /// Reads the next frame, and the reference's of the same number. Values are in the overlay's units until
-  /// set_scale(), between 0 and 1 after it.
+  /// Reads the next frame, and the reference's of the same number.
   bool next();
   const ShownFrame& frame() const { return frame_; }
-  const ShownFrame& reference() const { return reference_frame_; }
+  /// Valid until the next frame is read.
+  const ShownFrame& reference() const { return *reference_frame_; }
 
-  /// Takes the present frame's values into account for the scale.
-  void measure();
-  /// Fixes what the last colour stands for: the user's choice, or else what was measured, over all frames
-  /// (`complete`) or the first alone. Applies to the present frame as well.
-  void set_scale(bool complete);
+  /// Fixes what the last colour stands for: the user's choice, or else what was measured so far, over all
+  /// frames (`complete`) or the first alone.
+  void keep_scale(bool complete);
 
-  ColourMap map() const {
-    return options_.overlay == Overlay::kImportance ? ColourMap::kFlags : ColourMap::kViridis;
-  }
-  /// What the colours mean, after set_scale(); nothing without an overlay.
+  cli::ColourMap map() const { return colour_map_of(options_.overlay); }
+  /// What the colours mean, after keep_scale(); nothing without an overlay.
   const std::optional<Legend>& legend() const { return legend_; }
 
   Metadata metadata() const { return frames_->metadata(); }
@@ -40,18 +36,13 @@ class OverlayFrames {
   std::optional<std::uint64_t> wanted() const;
 
  private:
-  void read_reference();
-  void add_error();
-  void scale();
-  void make_legend(bool complete);
-
   const RenderOptions& options_;
-  std::unique_ptr<ShownFrames> frames_, references_;
-  ShownFrame frame_, reference_frame_;
-  std::vector<float> scratch_;
-  float measured_ = 0;
-  std::optional<float> largest_;
+  std::shared_ptr<ReferenceFrames> references_;
+  std::unique_ptr<OverlayColours> colours_;
+  std::unique_ptr<ShownFrames> frames_;
+  ShownFrame frame_;
+  const ShownFrame* reference_frame_ = nullptr;
   std::optional<Legend> legend_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 
 #include <tvg/normals.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 std::vector<Cell> sheet_cells(int width, int height, int columns, int rows) {
   std::vector<Cell> cells;
@@ -36,7 +36,7 @@ void PicturePainter::begin() {
   if (text_) list_ = &text_->begin(framebuffer_.width(), framebuffer_.height());
 }
 
-void PicturePainter::draw(const ShownFrame& frame, Which which, ColourMap map, const Cell& cell) {
+void PicturePainter::draw(const ShownFrame& frame, Which which, cli::ColourMap map, const Cell& cell) {
   Subject& subject = which == Which::kShown ? shown_ : reference_;
   if (subject.mesh != frame.mesh) {
     subject.mesh = frame.mesh;
@@ -93,4 +93,4 @@ const Image& PicturePainter::finish() {
   return image_;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

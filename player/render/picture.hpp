@@ -1,5 +1,5 @@
 #pragma once
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "player/view/framebuffer.hpp"
 #include "player/view/joint_overlay.hpp"
 #include "player/view/mesh_renderer.hpp"
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A part of a picture, in pixels from its upper left corner.
 struct Cell {
@@ -38,7 +38,7 @@ class PicturePainter {
 
   void begin();
   /// Draws a frame into a cell. Its values, where it has any, are colours by `map`, 0 to 1.
-  void draw(const ShownFrame& frame, Which which, ColourMap map, const Cell& cell);
+  void draw(const ShownFrame& frame, Which which, cli::ColourMap map, const Cell& cell);
   /// Leaves a cell with nothing but the background.
   void clear(const Cell& cell);
   /// Text in the lower left corner of a cell.
@@ -73,4 +73,4 @@ class PicturePainter {
   Image image_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -2,7 +2,7 @@
 
 #include "player/render/video_writer.hpp"
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -45,4 +45,4 @@ std::unique_ptr<PictureOutput> open_output(const RenderOptions& options, const s
   return std::make_unique<PngOutput>(options);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Takes finished pictures to where the user wants them.
 class PictureOutput {
@@ -28,4 +28,4 @@ class PictureOutput {
 /// `fps`: for a clip. Throws ToolError, see VideoWriter.
 std::unique_ptr<PictureOutput> open_output(const RenderOptions& options, const std::string& fps);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -27,8 +27,9 @@ class RenderJob {
     if (frames_.rewind()) {
       survey_all();
     } else if (single && !options_.frames) {
-      throw ToolError(ExitStatus::kUsage,
-                      "standard input can be read only once: name the frames of the picture with --frames");
+      throw cli::ToolError(
+          cli::ExitStatus::kUsage,
+          "standard input can be read only once: name the frames of the picture with --frames");
     } else {
       count_ =
           options_.frames ? std::optional(options_.frames->last - options_.frames->first + 1) : std::nullopt;
@@ -47,7 +48,7 @@ class RenderJob {
  private:
   void survey_all() {
     std::uint64_t count = 0;
-    ProgressBar bar("looking through", options_.quiet);
+    cli::ProgressBar bar("looking through", options_.quiet);
     while (frames_.next()) {
       survey_frame();
       bar.update(++count, frames_.wanted());
@@ -62,7 +63,6 @@ class RenderJob {
   void survey_frame() {
     bounds_.extend(frames_.frame().positions);
     if (options_.side_by_side) bounds_.extend(frames_.reference().positions);
-    frames_.measure();
   }
 
   /// Once the camera knows what it looks at: after the survey, or at the first frame of a pipe.
@@ -71,7 +71,7 @@ class RenderJob {
       survey_frame();
       bounds_.pad(0.24 * view_radius(bounds_));
     }
-    frames_.set_scale(surveyed_);
+    frames_.keep_scale(surveyed_);
     OrbitCamera camera;
     camera.set_angles(options_.angles);
     const UpAxis up_axis = up_axis_of(frames_.metadata());
@@ -140,17 +140,17 @@ class RenderJob {
     if (options_.fps) return *options_.fps;
     const Metadata metadata = frames_.metadata();
     const auto fps = metadata.find("fps");
-    return fps != metadata.end() && parse_frame_rate(fps->second) ? fps->second : "30";
+    return fps != metadata.end() && cli::parse_frame_rate(fps->second) ? fps->second : "30";
   }
 
-  ToolError no_frames() const {
-    return {ExitStatus::kInvalidInput, options_.inputs.front() + ": there is no frame to draw"};
+  cli::ToolError no_frames() const {
+    return {cli::ExitStatus::kInvalidInput, options_.inputs.front() + ": there is no frame to draw"};
   }
 
   void check_complete(std::uint64_t count) const {
     if (!options_.frames || count == options_.frames->last - options_.frames->first + 1) return;
-    throw ToolError(
-        ExitStatus::kUsage,
+    throw cli::ToolError(
+        cli::ExitStatus::kUsage,
         fmt::format("--frames {}-{}: {} ends after frame {}", options_.frames->first, options_.frames->last,
                     options_.inputs.front(), options_.frames->first + count - 1));
   }
@@ -167,7 +167,7 @@ class RenderJob {
 
   const RenderOptions& options_;
   OverlayFrames frames_;
-  ProgressBar bar_;
+  cli::ProgressBar bar_;
   BoundingBox bounds_;
   bool surveyed_ = false;
   std::optional<std::uint64_t> count_;  // frames that are wanted
@@ -181,4 +181,4 @@ void render(const RenderOptions& options) {
   RenderJob(options).run();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -19,9 +19,10 @@ void set_output(RenderOptions& options, const std::string& output) {
   options.output = output;
   if (is_video_name(output)) {
     options.kind = RenderOptions::Output::kVideo;
-  } else if (!has_suffix(output, ".png") && output != "-") {
-    fail_option("-o", output, "write a picture (.png), pictures (out%04d.png) or a clip (.mp4, .webm, .mkv)");
-  } else if ((options.pattern = parse_frame_pattern(output))) {
+  } else if (!cli::has_suffix(output, ".png") && output != "-") {
+    cli::fail_option("-o", output,
+                     "write a picture (.png), pictures (out%04d.png) or a clip (.mp4, .webm, .mkv)");
+  } else if ((options.pattern = cli::parse_frame_pattern(output))) {
     options.kind = RenderOptions::Output::kFrames;
   }
 }
@@ -29,25 +30,26 @@ void set_output(RenderOptions& options, const std::string& output) {
 void check_together(const RenderOptions& options, const RenderArguments& arguments) {
   const bool video = options.kind == RenderOptions::Output::kVideo;
   if (video && (options.width % 2 != 0 || options.height % 2 != 0)) {
-    fail_option("--size", arguments.size, "a clip needs even numbers");
+    cli::fail_option("--size", arguments.size, "a clip needs even numbers");
   }
   if (options.sheet && options.kind != RenderOptions::Output::kPicture) {
-    fail_option("--sheet", arguments.sheet,
-                "a contact sheet is one picture: write it to a .png without a frame's number");
+    cli::fail_option("--sheet", arguments.sheet,
+                     "a contact sheet is one picture: write it to a .png without a frame's number");
   }
   if (options.sheet &&
       (options.width / options.sheet->columns < 16 || options.height / options.sheet->rows < 16)) {
-    fail_option("--sheet", arguments.sheet, "the pictures would be under 16 pixels: give a larger --size");
+    cli::fail_option("--sheet", arguments.sheet,
+                     "the pictures would be under 16 pixels: give a larger --size");
   }
-  if (options.fps && !video) fail_option("--fps", arguments.fps, "only a clip has frames per second");
+  if (options.fps && !video) cli::fail_option("--fps", arguments.fps, "only a clip has frames per second");
   if (options.side_by_side && options.reference.empty()) {
-    throw ToolError(ExitStatus::kUsage, "--side-by-side: name the reference with --ref");
+    throw cli::ToolError(cli::ExitStatus::kUsage, "--side-by-side: name the reference with --ref");
   }
   if (!options.reference.empty() && !options.side_by_side && options.overlay != Overlay::kError) {
-    throw ToolError(ExitStatus::kUsage, "--ref: add --overlay error or --side-by-side to show it");
+    throw cli::ToolError(cli::ExitStatus::kUsage, "--ref: add --overlay error or --side-by-side to show it");
   }
   if (options.largest && options.overlay != Overlay::kCost && options.overlay != Overlay::kError) {
-    fail_option("--scale", arguments.scale, "only --overlay cost and error have a scale");
+    cli::fail_option("--scale", arguments.scale, "only --overlay cost and error have a scale");
   }
 }
 
@@ -58,18 +60,18 @@ RenderOptions parse_render_arguments(const RenderArguments& arguments) {
   static_cast<Look&>(options) = parse_look(arguments);
   options.inputs = arguments.inputs;
   set_output(options, arguments.output);
-  if (!arguments.frames.empty()) options.frames = parse_frame_range(arguments.frames);
+  if (!arguments.frames.empty()) options.frames = cli::parse_frame_range(arguments.frames);
   if (!arguments.scale.empty())
-    options.largest = parse_number("--scale", arguments.scale, {0, kMostScale, true});
+    options.largest = cli::parse_number("--scale", arguments.scale, {0, kMostScale, true});
   if (!arguments.sheet.empty()) {
-    const auto shape = parse_count_pair(arguments.sheet, kMostCells);
+    const auto shape = cli::parse_count_pair(arguments.sheet, kMostCells);
     if (!shape)
-      fail_option("--sheet", arguments.sheet,
-                  fmt::format("write columns and rows, 1 to {}, as 4x3", kMostCells));
+      cli::fail_option("--sheet", arguments.sheet,
+                       fmt::format("write columns and rows, 1 to {}, as 4x3", kMostCells));
     options.sheet = {shape->first, shape->second};
   }
   if (!arguments.fps.empty()) {
-    static_cast<void>(parse_rate(arguments.fps));
+    static_cast<void>(cli::parse_rate(arguments.fps));
     options.fps = arguments.fps;
   }
   options.side_by_side = arguments.side_by_side;
@@ -80,4 +82,4 @@ RenderOptions parse_render_arguments(const RenderArguments& arguments) {
   return options;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

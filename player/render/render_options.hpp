@@ -1,4 +1,5 @@
 #pragma once
+#include "player/overlay/overlay_values.hpp"
 #include "player/view/look.hpp"
 #include "tool/frame_pattern.hpp"
 
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// The options of `tvg render` as they are typed.
 struct RenderArguments : LookArguments {
@@ -36,8 +37,10 @@ struct RenderOptions : Look {
   std::vector<std::string> inputs;
   std::string output;
   Output kind = Output::kPicture;
-  std::optional<FramePattern> pattern;  ///< kFrames: names of the pictures
+  std::optional<cli::FramePattern> pattern;  ///< kFrames: names of the pictures
   std::optional<FrameRange> frames;
+  cli::SourceOpener open_inputs;  ///< opens inputs that are no .tvg
+  ShownMeasure measure;           ///< of Overlay::kCost
   std::optional<double> largest;  ///< value at the upper end of the colours, in the overlay's units
   std::optional<SheetShape> sheet;
   std::optional<std::string> fps;  ///< "30" or "30000/1001"
@@ -50,4 +53,4 @@ struct RenderOptions : Look {
 /// Throws ToolError (kUsage) that shows what would be right, also for options that do not go together.
 RenderOptions parse_render_arguments(const RenderArguments& arguments);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 SheetShape sheet_shape(std::uint64_t frames, int width, int height) {
   constexpr std::uint64_t kMostFrames = 12;
@@ -30,4 +30,4 @@ std::vector<std::uint64_t> spread_evenly(std::uint64_t frames, std::uint64_t cou
   return positions;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Columns and rows that suit so many frames, at most 12 of them, in a picture of this size: cells a little
 /// wider than high, few left empty.
@@ -14,4 +14,4 @@ SheetShape sheet_shape(std::uint64_t frames, int width, int height);
 /// more. `frames` and `count`: at least 1.
 std::vector<std::uint64_t> spread_evenly(std::uint64_t frames, std::uint64_t count);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -16,7 +16,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -44,7 +44,7 @@ std::vector<std::string> ffmpeg_arguments(const std::string& name, const std::st
                                         "-framerate", fps,           "-i",
                                         "pipe:0",     "-pix_fmt",    "yuv420p"};
   for (const VideoFormat& format : video_formats()) {
-    if (!has_suffix(name, format.suffix)) continue;
+    if (!cli::has_suffix(name, format.suffix)) continue;
     arguments.insert(arguments.end(), format.arguments.begin(), format.arguments.end());
   }
   arguments.push_back("file:" + target);
@@ -81,20 +81,20 @@ int spawn(pid_t& process, const std::vector<std::string>& arguments, int input, 
 bool is_video_name(const std::string& path) {
   const auto& formats = video_formats();
   return std::any_of(formats.begin(), formats.end(),
-                     [&path](const VideoFormat& format) { return has_suffix(path, format.suffix); });
+                     [&path](const VideoFormat& format) { return cli::has_suffix(path, format.suffix); });
 }
 
 VideoWriter::VideoWriter(const std::string& path, int width, int height, const std::string& fps)
     : file_(path) {
   if (!file_.seekable()) {
-    throw ToolError(ExitStatus::kUsage, path + ": a clip must be a file, no pipe or device");
+    throw cli::ToolError(cli::ExitStatus::kUsage, path + ": a clip must be a file, no pipe or device");
   }
   std::array<int, 2> ends{};
   messages_ = memfd_create("ffmpeg", MFD_CLOEXEC);
   if (messages_ < 0 || pipe2(ends.data(), O_CLOEXEC) != 0) {
     const int reason = errno;
     if (messages_ >= 0) close(messages_);
-    throw ToolError(ExitStatus::kIo, fmt::format("cannot start ffmpeg: {}", std::strerror(reason)));
+    throw cli::ToolError(cli::ExitStatus::kIo, fmt::format("cannot start ffmpeg: {}", std::strerror(reason)));
   }
   const int error =
       spawn(process_, ffmpeg_arguments(path, file_.temporary_path(), width, height, fps), ends[0], messages_);
@@ -105,10 +105,11 @@ VideoWriter::VideoWriter(const std::string& path, int width, int height, const s
   }
   close(ends[1]);
   close(messages_);
-  throw ToolError(ExitStatus::kOther,
-                  fmt::format("{}: clips are made by ffmpeg, which cannot be started ({}): install it (on "
-                              "Debian: apt-get install ffmpeg), or write pictures with -o out%04d.png",
-                              path, std::strerror(error)));
+  throw cli::ToolError(
+      cli::ExitStatus::kOther,
+      fmt::format("{}: clips are made by ffmpeg, which cannot be started ({}): install it (on "
+                  "Debian: apt-get install ffmpeg), or write pictures with -o out%04d.png",
+                  path, std::strerror(error)));
 }
 
 VideoWriter::~VideoWriter() {
@@ -153,9 +154,10 @@ void VideoWriter::fail() {
   std::string words(text.data(), static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   while (!words.empty() && words.back() == '\n') words.pop_back();
   std::replace(words.begin(), words.end(), '\n', ' ');
-  throw ToolError(ExitStatus::kOther, fmt::format("{}: ffmpeg failed{}{}; with -o out%04d.png pictures are "
-                                                  "written without it",
-                                                  file_.path(), words.empty() ? "" : ": ", words));
+  throw cli::ToolError(cli::ExitStatus::kOther,
+                       fmt::format("{}: ffmpeg failed{}{}; with -o out%04d.png pictures are "
+                                   "written without it",
+                                   file_.path(), words.empty() ? "" : ": ", words));
 }
 
 void VideoWriter::finish() {
@@ -165,4 +167,4 @@ void VideoWriter::finish() {
   file_.finish();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

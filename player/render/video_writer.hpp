@@ -5,7 +5,7 @@
 #include <string>
 #include <sys/types.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Whether a file of this name is a clip: .mp4, .webm or .mkv.
 bool is_video_name(const std::string& path);
@@ -30,10 +30,10 @@ class VideoWriter {
   int wait();
   void close_pipe();
 
-  AtomicFile file_;
+  cli::AtomicFile file_;
   int pipe_ = -1;
   int messages_ = -1;  // a file without a name that holds what ffmpeg says
   pid_t process_ = -1;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,6 +1,6 @@
 #include "player/view/bounds.hpp"
 
-namespace tvg::cli {
+namespace tvg::player {
 
 UpAxis up_axis_of(const Metadata& metadata) {
   const auto up = metadata.find("up");
@@ -12,4 +12,4 @@ double view_radius(const BoundingBox& bounds) {
   return radius > 0 ? radius : 1;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

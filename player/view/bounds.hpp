@@ -2,7 +2,7 @@
 #include <tvg/geometry.hpp>
 #include <tvg/types.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// The axis that points up in a sequence (metadata `up`).
 enum class UpAxis { kY, kZ };
@@ -14,4 +14,4 @@ UpAxis up_axis_of(const Metadata& metadata);
 /// so that it can be divided by.
 double view_radius(const BoundingBox& bounds);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -72,10 +72,11 @@ ViewAngles parse_view(const std::string& text) {
   const std::optional<double> zoom = rest.empty() ? 1.0 : next_number(rest);
   if (!azimuth || !elevation || !zoom || !rest.empty() || std::abs(*elevation) > 90 || !(*zoom > 0) ||
       *zoom > kMostZoom) {
-    throw ToolError(ExitStatus::kUsage,
-                    fmt::format("--camera {}: write front, back, left, right, top, bottom, iso, or azimuth, "
-                                "elevation (-90 to 90) and, if wanted, zoom (up to {}) as 30,15 or 30,15,1.5",
-                                text, kMostZoom));
+    throw cli::ToolError(
+        cli::ExitStatus::kUsage,
+        fmt::format("--camera {}: write front, back, left, right, top, bottom, iso, or azimuth, "
+                    "elevation (-90 to 90) and, if wanted, zoom (up to {}) as 30,15 or 30,15,1.5",
+                    text, kMostZoom));
   }
   return {std::remainder(*azimuth, 360), *elevation, *zoom};
 }
@@ -188,4 +189,4 @@ CameraMatrices OrbitCamera::matrices(double aspect) const {
   return result;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A rectangle of a framebuffer in pixels, from its lower left corner.
 struct Viewport {
@@ -70,4 +70,4 @@ class OrbitCamera {
   double fitted_distance_ = 0;  // 0: as the bounding sphere needs it
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 
 #include <tvg/geometry.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 std::vector<Face> draft_faces(const Mesh& mesh) {
   constexpr std::uint32_t kNone = UINT32_MAX;
@@ -27,4 +27,4 @@ std::vector<Face> draft_faces(const Mesh& mesh) {
   return faces;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -6,7 +6,7 @@
 #include <memory>
 #include <system_error>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -49,4 +49,4 @@ std::string find_font() {
   return "";
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fmt/format.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -27,9 +27,10 @@ Framebuffer::Framebuffer(int width, int height)
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_pixels);
   glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
   if (std::max(width, height) > most_pixels) {
-    throw ToolError(ExitStatus::kUsage, fmt::format("--size {}x{}: this machine draws pictures of at most {} "
-                                                    "pixels a side",
-                                                    width, height, most_pixels));
+    throw cli::ToolError(cli::ExitStatus::kUsage,
+                         fmt::format("--size {}x{}: this machine draws pictures of at most {} "
+                                     "pixels a side",
+                                     width, height, most_pixels));
   }
   samples_ = most_samples >= kSamples ? kSamples : 0;
   attach(drawn_, drawn_colour_, &drawn_depth_, samples_);
@@ -49,9 +50,10 @@ void Framebuffer::attach(const GlFramebuffer& target, GlRenderbuffer& colour, Gl
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth->get());
   }
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw ToolError(ExitStatus::kOther, fmt::format("the OpenGL driver has no room for a picture of {}x{} "
-                                                    "pixels",
-                                                    width_, height_));
+    throw cli::ToolError(cli::ExitStatus::kOther,
+                         fmt::format("the OpenGL driver has no room for a picture of {}x{} "
+                                     "pixels",
+                                     width_, height_));
   }
 }
 
@@ -80,4 +82,4 @@ void Framebuffer::read(Image& image) {
   }
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -2,7 +2,7 @@
 #include "player/view/gl_objects.hpp"
 #include "player/view/image.hpp"
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Something to draw into that is not a window: colour and depth, with smooth edges where the driver has 4
 /// samples per pixel. Needs a current OpenGL 3.3 context for as long as it lives.
@@ -33,4 +33,4 @@ class Framebuffer {
   std::vector<std::uint8_t> rows_;  // as OpenGL gives them, the lowest first
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

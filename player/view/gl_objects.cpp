@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -21,7 +21,8 @@ void attach_shader(GLuint program, GLenum stage, const std::string& text) {
   if (compiled == GL_TRUE) return;
   std::array<char, 1024> log{};
   glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throw ToolError(ExitStatus::kOther, std::string("the OpenGL driver refuses a shader: ") + log.data());
+  throw cli::ToolError(cli::ExitStatus::kOther,
+                       std::string("the OpenGL driver refuses a shader: ") + log.data());
 }
 
 /// One object of a kind, by the function of OpenGL that makes some.
@@ -80,7 +81,8 @@ GlProgram make_program(const ShaderText& text) {
   if (linked == GL_TRUE) return program;
   std::array<char, 1024> log{};
   glGetProgramInfoLog(program.get(), static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throw ToolError(ExitStatus::kOther, std::string("the OpenGL driver refuses a program: ") + log.data());
+  throw cli::ToolError(cli::ExitStatus::kOther,
+                       std::string("the OpenGL driver refuses a program: ") + log.data());
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

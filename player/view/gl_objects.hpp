@@ -3,7 +3,7 @@
 #include <string>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Owns the name of an OpenGL object; the context it was made in must be current when it is destroyed.
 template <void (*release)(GLuint)>
@@ -60,4 +60,4 @@ struct ShaderText {
 /// Compiles and links. Throws ToolError (kOther) with the driver's message where it refuses.
 GlProgram make_program(const ShaderText& text);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -13,7 +13,7 @@
 #include <png.h>
 #include <stdexcept>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -49,22 +49,23 @@ void write_png(const std::string& path, const Image& image) {
   std::vector<std::uint8_t> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
   png_alloc_size_t size = bytes.size();
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
-    throw ToolError(ExitStatus::kOther, fmt::format("{}: cannot be coded as PNG: {}", path, png.message));
+    throw cli::ToolError(cli::ExitStatus::kOther,
+                         fmt::format("{}: cannot be coded as PNG: {}", path, png.message));
   }
-  AtomicFile file(path);
+  cli::AtomicFile file(path);
   file.write(bytes.data(), size);
   file.finish();
 }
 
 Image read_png(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw ToolError(ExitStatus::kIo, fmt::format("{}: {}", path, std::strerror(errno)));
+  if (!file) throw cli::ToolError(cli::ExitStatus::kIo, fmt::format("{}: {}", path, std::strerror(errno)));
   std::vector<char> bytes(1 << 16);
   std::size_t size = 0;
   while (file.read(bytes.data() + size, static_cast<std::streamsize>(bytes.size() - size))) {
     size = bytes.size();
     if (size >= kMostFileBytes) {
-      throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: too large for a picture", path));
+      throw cli::ToolError(cli::ExitStatus::kInvalidInput, fmt::format("{}: too large for a picture", path));
     }
     bytes.resize(2 * size);
   }
@@ -72,17 +73,19 @@ Image read_png(const std::string& path) {
 
   PngImage png;
   if (png_image_begin_read_from_memory(&png, bytes.data(), size) == 0) {
-    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: no PNG: {}", path, png.message));
+    throw cli::ToolError(cli::ExitStatus::kInvalidInput, fmt::format("{}: no PNG: {}", path, png.message));
   }
   if (png.width > kMostPixels || png.height > kMostPixels) {
-    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: {}x{} pixels; at most {} a side are read",
-                                                           path, png.width, png.height, kMostPixels));
+    throw cli::ToolError(cli::ExitStatus::kInvalidInput,
+                         fmt::format("{}: {}x{} pixels; at most {} a side are read", path, png.width,
+                                     png.height, kMostPixels));
   }
   png.format = PNG_FORMAT_RGBA;
   Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
   image.pixels.resize(PNG_IMAGE_SIZE(png));
   if (png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr) == 0) {
-    throw ToolError(ExitStatus::kInvalidInput, fmt::format("{}: broken PNG: {}", path, png.message));
+    throw cli::ToolError(cli::ExitStatus::kInvalidInput,
+                         fmt::format("{}: broken PNG: {}", path, png.message));
   }
   return image;
 }
@@ -107,4 +110,4 @@ ImageDifference compare_images(const Image& a, const Image& b, int limit) {
   return {static_cast<double>(sum) / (3 * pixels), static_cast<double>(far) / pixels};
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A picture in memory: 8 bits each of red, green, blue and alpha, sRGB.
 struct Image {
@@ -35,4 +35,4 @@ struct ImageDifference {
 /// different sizes.
 ImageDifference compare_images(const Image& a, const Image& b, int limit);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

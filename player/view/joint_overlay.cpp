@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -34,7 +34,7 @@ std::vector<std::optional<ImVec2>> project(const OrbitCamera& camera, const Pict
 }
 
 ImU32 highlight() {
-  const Colour colour = map_colour(ColourMap::kFlags, 1);
+  const cli::Colour colour = cli::map_colour(cli::ColourMap::kFlags, 1);
   return ImGui::ColorConvertFloat4ToU32({colour.red, colour.green, colour.blue, 1});
 }
 
@@ -59,4 +59,4 @@ void draw_pose(ImDrawList& list, const OrbitCamera& camera, const PictureArea& a
   list.PopClipRect();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

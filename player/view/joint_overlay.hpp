@@ -8,7 +8,7 @@
 
 struct ImDrawList;
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A skeleton in a frame.
 struct Pose {
@@ -31,4 +31,4 @@ struct PictureArea {
 void draw_pose(ImDrawList& list, const OrbitCamera& camera, const PictureArea& area, const Pose& pose,
                float size);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

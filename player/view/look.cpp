@@ -10,7 +10,7 @@
 #include <tuple>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -27,11 +27,11 @@ Overlay parse_overlay(const std::string& text) {
   for (const auto& [overlay, name] : kOverlayNames) {
     if (text == name) return overlay;
   }
-  fail_option("--overlay", text, "write none, importance, cost or error");
+  cli::fail_option("--overlay", text, "write none, importance, cost or error");
 }
 
 /// "#rrggbb"
-std::optional<Colour> parse_colour(std::string_view text) {
+std::optional<cli::Colour> parse_colour(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
   std::array<float, 3> parts{};
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -41,7 +41,7 @@ std::optional<Colour> parse_colour(std::string_view text) {
     if (error != std::errc() || end != begin + 2) return std::nullopt;
     parts[i] = static_cast<float>(value) / 255;
   }
-  return Colour{parts[0], parts[1], parts[2]};
+  return cli::Colour{parts[0], parts[1], parts[2]};
 }
 
 void set_background(Style& style, const std::string& text) {
@@ -51,10 +51,10 @@ void set_background(Style& style, const std::string& text) {
     style.background_bottom = {0.10F, 0.11F, 0.13F};
   } else if (text == "white") {
     style.background_top = style.background_bottom = {1, 1, 1};
-  } else if (const std::optional<Colour> colour = parse_colour(text)) {
+  } else if (const std::optional<cli::Colour> colour = parse_colour(text)) {
     style.background_top = style.background_bottom = *colour;
   } else if (text != "light") {
-    fail_option("--background", text, "write light, dark, white or a colour as #rrggbb");
+    cli::fail_option("--background", text, "write light, dark, white or a colour as #rrggbb");
   }
 }
 
@@ -69,9 +69,9 @@ const char* overlay_name(Overlay overlay) {
 
 Look parse_look(const LookArguments& arguments) {
   Look look;
-  const auto size = parse_count_pair(arguments.size, kMostPixels);
+  const auto size = cli::parse_count_pair(arguments.size, kMostPixels);
   if (!size || size->first < kFewestPixels || size->second < kFewestPixels) {
-    fail_option(
+    cli::fail_option(
         "--size", arguments.size,
         fmt::format("write width and height in pixels, {} to {}, as 1280x720", kFewestPixels, kMostPixels));
   }
@@ -80,10 +80,10 @@ Look parse_look(const LookArguments& arguments) {
   look.overlay = parse_overlay(arguments.overlay);
   look.reference = arguments.reference;
   if (look.overlay == Overlay::kError && look.reference.empty()) {
-    fail_option("--overlay", "error", "name the reference with --ref");
+    cli::fail_option("--overlay", "error", "name the reference with --ref");
   }
   if (arguments.shading != "smooth" && arguments.shading != "flat") {
-    fail_option("--shading", arguments.shading, "write smooth or flat");
+    cli::fail_option("--shading", arguments.shading, "write smooth or flat");
   }
   look.style.shading = arguments.shading == "flat" ? Shading::kFlat : Shading::kSmooth;
   look.style.wireframe = arguments.wireframe;
@@ -92,4 +92,4 @@ Look parse_look(const LookArguments& arguments) {
   return look;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

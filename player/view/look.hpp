@@ -7,7 +7,7 @@
 #include <vector>
 
 // How things are to look, as the commands that draw have it in common.
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What colours the mesh.
 enum class Overlay { kNone, kImportance, kCost, kError };
@@ -33,7 +33,7 @@ struct Look {
   int height = 720;
   ViewAngles angles;
   Overlay overlay = Overlay::kNone;
-  SourceOpener open_source;            ///< opens a reference, or inputs, that are no .tvg
+  cli::SourceOpener open_source;       ///< opens a reference that is no .tvg
   std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none
   Style style;
 };
@@ -41,4 +41,4 @@ struct Look {
 /// Throws ToolError (kUsage) that shows what would be right.
 Look parse_look(const LookArguments& arguments);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -42,7 +42,7 @@ void set_attribute(GLuint attribute, bool present) {
   }
 }
 
-void set_colour(GLint place, const Colour& colour) {
+void set_colour(GLint place, const cli::Colour& colour) {
   glUniform3f(place, colour.red, colour.green, colour.blue);
 }
 
@@ -93,7 +93,7 @@ void MeshRenderer::set_scene(const BoundingBox& bounds, UpAxis up) {
 }
 
 void MeshRenderer::set_frame(std::span<const float> positions, std::span<const float> normals,
-                             std::span<const float> values, ColourMap map) {
+                             std::span<const float> values, cli::ColourMap map) {
   const std::size_t coordinates = 3 * std::size_t{vertex_count_};
   has_frame_ = coordinates > 0 && positions.size() >= coordinates;
   if (!has_frame_) return;
@@ -109,12 +109,12 @@ void MeshRenderer::set_frame(std::span<const float> positions, std::span<const f
   if (has_values_) use_colour_map(map);
 }
 
-void MeshRenderer::use_colour_map(ColourMap map) {
+void MeshRenderer::use_colour_map(cli::ColourMap map) {
   if (colours_shown_ == static_cast<int>(map)) return;
   colours_shown_ = static_cast<int>(map);
-  const auto samples = colour_map_samples(map);
+  const auto samples = cli::colour_map_samples(map);
   glBindTexture(GL_TEXTURE_2D, colours_.get());
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, kColourMapSamples, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, cli::kColourMapSamples, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                samples.data());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -232,7 +232,7 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style,
   // Lines of a pixel weigh more in a small picture.
   const float strength = std::clamp(static_cast<float>(viewport.height) / 720, 0.35F, 1.0F);
   const bool dark = style.background_bottom.green < 0.45F;
-  set_colour(place("ink"), dark ? Colour{0.75F, 0.80F, 0.88F} : Colour{0.22F, 0.25F, 0.31F});
+  set_colour(place("ink"), dark ? cli::Colour{0.75F, 0.80F, 0.88F} : cli::Colour{0.22F, 0.25F, 0.31F});
   glUniform1f(place("strength"), (dark ? 0.20F : 0.26F) * strength);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -243,4 +243,4 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style,
   glDisable(GL_BLEND);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

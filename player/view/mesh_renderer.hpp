@@ -10,7 +10,7 @@
 
 #include <tvg/types.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 enum class Shading { kSmooth, kFlat };
 
@@ -22,9 +22,9 @@ struct Style {
   /// For machines that draw without a graphics card: where a mesh has many faces, a third of them is drawn.
   /// Flat shading and wireframe show every face all the same.
   bool draft = false;
-  Colour surface{0.84F, 0.70F, 0.60F};            ///< where no values colour it
-  Colour background_top{0.93F, 0.94F, 0.955F};    ///< at the picture's upper edge
-  Colour background_bottom{0.74F, 0.77F, 0.81F};  ///< at its lower edge
+  cli::Colour surface{0.84F, 0.70F, 0.60F};            ///< where no values colour it
+  cli::Colour background_top{0.93F, 0.94F, 0.955F};    ///< at the picture's upper edge
+  cli::Colour background_bottom{0.74F, 0.77F, 0.81F};  ///< at its lower edge
 };
 
 /// Draws one mesh whose vertices move. Needs an OpenGL 3.3 core context that is current in every call, the
@@ -46,7 +46,7 @@ class MeshRenderer {
   /// `map`, or empty for the style's colour. All are copied to the driver at once; no memory is allocated
   /// here.
   void set_frame(std::span<const float> positions, std::span<const float> normals,
-                 std::span<const float> values = {}, ColourMap map = ColourMap::kViridis);
+                 std::span<const float> values = {}, cli::ColourMap map = cli::ColourMap::kViridis);
 
   /// Draws background, mesh and grid; what was in the viewport before is gone.
   void draw(const OrbitCamera& camera, const Style& style, const Viewport& viewport);
@@ -67,7 +67,7 @@ class MeshRenderer {
   const MeshProgram& mesh_program(const Style& style);
   void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
   void draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
-  void use_colour_map(ColourMap map);
+  void use_colour_map(cli::ColourMap map);
 
   GlVertexArray mesh_array_, empty_array_;
   GlBuffer positions_, normals_, values_, faces_, draft_faces_;
@@ -85,4 +85,4 @@ class MeshRenderer {
   UpAxis up_ = UpAxis::kY;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

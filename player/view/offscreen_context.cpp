@@ -6,13 +6,14 @@
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
-ToolError no_context(const std::string& what) {
-  return {ExitStatus::kOther, "cannot draw without a display: " + what +
-                                  "; Mesa gives one (on Debian: apt-get install libegl1 libgl1-mesa-dri)"};
+cli::ToolError no_context(const std::string& what) {
+  return {cli::ExitStatus::kOther,
+          "cannot draw without a display: " + what +
+              "; Mesa gives one (on Debian: apt-get install libegl1 libgl1-mesa-dri)"};
 }
 
 }  // namespace
@@ -68,4 +69,4 @@ std::string OffscreenContext::renderer() const {
   return reinterpret_cast<const char*>(glGetString(GL_RENDERER));
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// An OpenGL 3.3 core context without window and display (EGL, surfaceless), current on the thread that made
 /// it until it is destroyed.
@@ -23,4 +23,4 @@ class OffscreenContext {
   void* context_ = nullptr;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

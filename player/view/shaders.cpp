@@ -1,6 +1,6 @@
 #include "player/view/shaders.hpp"
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -253,4 +253,4 @@ ShaderText grid_shader() {
   return {std::string(kVersion) + kGridVertex, {}, std::string(kVersion) + kGridFragment};
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,7 +1,7 @@
 #pragma once
 #include "player/view/gl_objects.hpp"
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What a program for the mesh does.
 struct MeshShaderFeatures {
@@ -15,4 +15,4 @@ ShaderText mesh_shader(const MeshShaderFeatures& features);
 ShaderText background_shader();
 ShaderText grid_shader();
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -24,7 +24,7 @@ constexpr ImU32 kInk = IM_COL32(38, 42, 52, 255);
 constexpr ImU32 kFaintInk = IM_COL32(38, 42, 52, 170);
 constexpr ImU32 kPlate = IM_COL32(255, 255, 255, 165);
 
-ImU32 packed(const Colour& colour) {
+ImU32 packed(const cli::Colour& colour) {
   const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
   return IM_COL32(byte(colour.red), byte(colour.green), byte(colour.blue), 255);
 }
@@ -50,8 +50,8 @@ void draw_scale(ImDrawList& list, float x, float y, float size, const Legend& le
   for (int i = 0; i < kPieces; ++i) {
     const float top = y + height * static_cast<float>(i) / kPieces;
     const float bottom = y + height * static_cast<float>(i + 1) / kPieces;
-    const ImU32 above = packed(map_colour(legend.map, 1 - static_cast<double>(i) / kPieces));
-    const ImU32 below = packed(map_colour(legend.map, 1 - static_cast<double>(i + 1) / kPieces));
+    const ImU32 above = packed(cli::map_colour(legend.map, 1 - static_cast<double>(i) / kPieces));
+    const ImU32 below = packed(cli::map_colour(legend.map, 1 - static_cast<double>(i + 1) / kPieces));
     list.AddRectFilledMultiColor({x, top}, {x + width, bottom}, above, above, below, below);
   }
   constexpr int kTicks = 4;
@@ -65,7 +65,7 @@ void draw_scale(ImDrawList& list, float x, float y, float size, const Legend& le
   }
 }
 
-void draw_swatch(ImDrawList& list, float x, float y, float size, const Colour& colour,
+void draw_swatch(ImDrawList& list, float x, float y, float size, const cli::Colour& colour,
                  const std::string& text) {
   list.AddRectFilled({x, y + 0.1F * size}, {x + 0.9F * size, y + size}, packed(colour), 0.15F * size);
   put(list, 0.85F * size, x + 1.4F * size, y + 0.12F * size, kInk, text);
@@ -113,7 +113,7 @@ void draw_label(ImDrawList& list, const TextPlace& place, const std::string& tex
 }
 
 TextExtent legend_extent(const Legend& legend, float size) {
-  const bool flags = legend.map == ColourMap::kFlags;
+  const bool flags = legend.map == cli::ColourMap::kFlags;
   const auto beside_colour = [size](const std::string& text) {
     return 1.4F * size + text_width(0.85F * size, text);
   };
@@ -134,9 +134,9 @@ void draw_legend(ImDrawList& list, const TextPlace& place, const Legend& legend)
   y += 1.3F * size;
   if (!legend.note.empty()) put(list, 0.8F * size, x, y, kFaintInk, legend.note);
   y += (legend.note.empty() ? 0.4F : 1.8F) * size;
-  if (legend.map == ColourMap::kFlags) {
-    draw_swatch(list, x, y, size, map_colour(legend.map, 1), legend.flagged);
-    draw_swatch(list, x, y + 1.4F * size, size, map_colour(legend.map, 0), legend.plain);
+  if (legend.map == cli::ColourMap::kFlags) {
+    draw_swatch(list, x, y, size, cli::map_colour(legend.map, 1), legend.flagged);
+    draw_swatch(list, x, y + 1.4F * size, size, cli::map_colour(legend.map, 0), legend.plain);
   } else {
     draw_scale(list, x, y, size, legend);
   }
@@ -150,7 +150,8 @@ TextLayer::TextLayer(float largest_size) : context_(ImGui::CreateContext()) {
   load_font(largest_size);
   if (!ImGui_ImplOpenGL3_Init("#version 330 core")) {
     ImGui::DestroyContext(context_);
-    throw ToolError(ExitStatus::kOther, "cannot draw text: OpenGL's functions are not found (libGL.so.1)");
+    throw cli::ToolError(cli::ExitStatus::kOther,
+                         "cannot draw text: OpenGL's functions are not found (libGL.so.1)");
   }
 }
 
@@ -176,4 +177,4 @@ void TextLayer::end() {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

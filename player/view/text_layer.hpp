@@ -6,11 +6,11 @@
 struct ImDrawList;
 struct ImGuiContext;
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// A colour bar with what its colours mean.
 struct Legend {
-  ColourMap map = ColourMap::kViridis;
+  cli::ColourMap map = cli::ColourMap::kViridis;
   std::string title;    ///< "error"
   std::string note;     ///< a second, smaller line; may be empty
   double smallest = 0;  ///< values at the bar's ends; of no meaning for kFlags
@@ -68,4 +68,4 @@ class TextLayer {
   ImGuiContext* context_;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -13,7 +13,7 @@
 #include <imgui.h>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -29,8 +29,9 @@ std::string last_complaint() {
 [[noreturn]] void fail() {
   const std::string reason = last_complaint();
   glfwTerminate();
-  throw ToolError(ExitStatus::kOther, "cannot open a window: " + reason +
-                                          "; `tvg render` makes pictures and clips without a display");
+  throw cli::ToolError(
+      cli::ExitStatus::kOther,
+      "cannot open a window: " + reason + "; `tvg render` makes pictures and clips without a display");
 }
 
 }  // namespace
@@ -213,4 +214,4 @@ void GlfwWindow::handle_button(int button, int action, int modifiers) {
   last_click_ = now;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

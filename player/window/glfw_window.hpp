@@ -7,7 +7,7 @@
 struct GLFWwindow;
 struct ImGuiContext;
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What happens to a window.
 struct WindowEvents {
@@ -69,4 +69,4 @@ class GlfwWindow {
   int windowed_[4] = {0, 0, 0, 0};  ///< place and size to go back to from full screen
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -51,10 +51,10 @@ void stream_rows(const PlayerSnapshot& player) {
   row("frames", fmt::format("{} at {:g} per second", frames, player.rate));
   row("rate", bit_rate(player.bits_per_second));
   if (stream.input.bytes_received > 0) {
-    const std::string whole = stream.stream_bytes ? " of " + readable_bytes(*stream.stream_bytes) : "";
-    row("received", readable_bytes(stream.input.bytes_received) + whole);
+    const std::string whole = stream.stream_bytes ? " of " + cli::readable_bytes(*stream.stream_bytes) : "";
+    row("received", cli::readable_bytes(stream.input.bytes_received) + whole);
   } else if (stream.stream_bytes) {
-    row("size", readable_bytes(*stream.stream_bytes));
+    row("size", cli::readable_bytes(*stream.stream_bytes));
   }
 }
 
@@ -107,7 +107,7 @@ void draw_chart(const PlayerSnapshot& player, const InterfaceFacts& facts, float
   if (facts.packets.empty()) return;
   std::uint64_t most = 1;
   for (const FrameBytes& packet : facts.packets) most = std::max(most, packet.bytes);
-  const std::string caption = fmt::format("bits per frame, up to {}", readable_bytes(most));
+  const std::string caption = fmt::format("bits per frame, up to {}", cli::readable_bytes(most));
   list.AddText({corner.x + 0.8F * unit, corner.y + 0.4F * unit}, theme::kFaintText, caption.c_str());
   const float floor = end.y - 0.5F * unit;
   const float tall = end.y - corner.y - 2.4F * unit;
@@ -175,9 +175,12 @@ void draw_welcome() {
 }
 
 void draw_notice(const std::string& notice) {
-  begin_panel("notice", {ImGui::GetIO().DisplaySize.x / 2, kMargin}, {0.5F, 0});
+  const float width = ImGui::GetIO().DisplaySize.x;
+  begin_panel("notice", {width / 2, kMargin}, {0.5F, 0});
+  ImGui::PushTextWrapPos(width - 4 * kMargin);
   text(notice);
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

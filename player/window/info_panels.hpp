@@ -2,7 +2,7 @@
 #include "player/window/interface.hpp"
 
 // The panels over the scene that only show something. An ImGui frame must be begun.
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What the stream is and how playing goes, in the upper right corner.
 void draw_info(const PlayerSnapshot& player, const InterfaceFacts& facts);
@@ -18,4 +18,4 @@ void draw_welcome();
 /// A passing line at the top.
 void draw_notice(const std::string& notice);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -162,4 +162,4 @@ InterfaceRequests draw_interface(const PlayerSnapshot* player, const InterfaceFa
   return requests;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What the user has switched on.
 struct ViewSettings {
@@ -44,4 +44,4 @@ struct InterfaceRequests {
 InterfaceRequests draw_interface(const PlayerSnapshot* player, const InterfaceFacts& facts,
                                  const ViewSettings& settings);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -3,7 +3,7 @@
 #include <GLFW/glfw3.h>
 #include <array>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -60,4 +60,4 @@ std::optional<Action> action_of(int key, int modifiers) {
   return std::nullopt;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -2,7 +2,7 @@
 #include <optional>
 #include <span>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What a key does in the window.
 enum class Action {
@@ -50,4 +50,4 @@ std::span<const KeyBinding> key_bindings();
 /// The action of a key.
 std::optional<Action> action_of(int key, int modifiers);
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

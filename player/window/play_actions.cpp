@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 WindowEvents PlaySession::events() {
   return {[this](Action action) { act(action); }, [this](const std::string& path) { open(path); },
@@ -19,20 +19,30 @@ WindowEvents PlaySession::events() {
 void PlaySession::open(const std::string& location) {
   try {
     use(open_stream_input(location));
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     notify(error.what());
   }
 }
 
 void PlaySession::set_overlay(Overlay overlay) {
   try {
-    decorator_ = make_overlay_decorator(overlay, options_.reference, options_.open_source);
-  } catch (const ToolError& error) {
+    decorator_ = make_decorator(overlay);
+  } catch (const cli::ToolError& error) {
     notify(error.what());
     return;
   }
   view_.overlay = overlay;
   if (player_) player_->set_decorator(decorator_, watch_.now());
+}
+
+std::shared_ptr<OverlayDecorator> PlaySession::make_decorator(Overlay overlay) const {
+  if (overlay == Overlay::kNone) return nullptr;
+  OverlaySpec spec{overlay, {}, nullptr, options_.measure};
+  if (overlay == Overlay::kError) {
+    spec.reference = std::make_shared<ReferenceFrames>(
+        ShownFramesSpec{options_.reference, {}, false, false, false, options_.open_source}, name_);
+  }
+  return std::make_shared<OverlayDecorator>(spec, name_);
 }
 
 void PlaySession::next_overlay() {
@@ -150,4 +160,4 @@ std::uint64_t PlaySession::gop_start(const PlayerSnapshot& state, int direction)
   return found;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

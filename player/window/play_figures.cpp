@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 void PlayFigures::add_frame(double now) {
   if (frames_ == 0) {
@@ -66,4 +66,4 @@ std::string PlayFigures::report(const PlayerSnapshot& player, const std::string&
   return report.dump(2) + "\n";
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

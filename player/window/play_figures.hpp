@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// How playing went: times are in seconds since the command began.
 class PlayFigures {
@@ -38,4 +38,4 @@ class PlayFigures {
   double longest_gap_ = 0;  ///< between two frames shown
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,15 +1,17 @@
 #pragma once
+#include "player/overlay/overlay_values.hpp"
 #include "player/view/look.hpp"
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// What `tvg play` was asked for.
 struct PlayOptions : Look {
   std::string location;  ///< a path, "-" or a URL; empty: a window that waits for one
+  ShownMeasure measure;  ///< of Overlay::kCost
   std::optional<double> rate;
   double speed = 1;
   bool looping = true;
@@ -21,4 +23,4 @@ struct PlayOptions : Look {
   std::string report;             ///< where figures go at the end, as JSON
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,5 +1,6 @@
 #include "player/window/play_session.hpp"
 
+#include "player/overlay/overlay_values.hpp"
 #include "player/view/image.hpp"
 #include "player/window/window_picture.hpp"
 #include "tool/atomic_file.hpp"
@@ -9,7 +10,7 @@
 #include <filesystem>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -88,8 +89,7 @@ void PlaySession::show(std::shared_ptr<const PlayerFrame> frame) {
     renderer_.set_mesh(*mesh_);
     fit_view();
   }
-  const ColourMap map = view_.overlay == Overlay::kImportance ? ColourMap::kFlags : ColourMap::kViridis;
-  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, map);
+  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, colour_map_of(view_.overlay));
 }
 
 void PlaySession::fit_view() {
@@ -131,7 +131,11 @@ InterfaceFacts PlaySession::facts(double now) const {
   InterfaceFacts facts;
   facts.name = std::filesystem::path(name_).filename().string();
   facts.notice = notice_;
-  if (decorator_ != nullptr) facts.legend = decorator_->legend();
+  if (decorator_ != nullptr) {
+    facts.legend = decorator_->legend();
+    if (notice_.empty()) facts.notice = decorator_->problem();
+    if (view_.overlay == Overlay::kError) facts.legend->units = short_units(snapshot_.stream.metadata);
+  }
   facts.draw_ms = figures_.mean_draw_ms();
   facts.shown_per_second = figures_.shown_per_second(now);
   facts.has_reference = !options_.reference.empty();
@@ -160,7 +164,7 @@ void PlaySession::save_picture(const std::string& path) {
   try {
     write_png(path, window_picture(window_.width(), window_.height()));
     notify("saved " + path);
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     if (path == options_.screenshot) throw;
     notify(error.what());
   }
@@ -170,13 +174,13 @@ void PlaySession::report() {
   if (!player_) return;
   snapshot_ = player_->snapshot();
   if (!options_.report.empty()) {
-    AtomicFile file(options_.report);
+    cli::AtomicFile file(options_.report);
     file.write(figures_.report(snapshot_, name_, watch_.now()));
     file.finish();
   }
   if (snapshot_.status == PlayerSnapshot::Status::kFailed && frame_ == nullptr) {
-    throw ToolError(ExitStatus::kInvalidInput, snapshot_.stream.message);
+    throw cli::ToolError(cli::ExitStatus::kInvalidInput, snapshot_.stream.message);
   }
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -5,7 +5,7 @@
 #include "player/view/mesh_renderer.hpp"
 #include "player/window/glfw_window.hpp"
 #include "player/window/interface.hpp"
-#include "player/window/overlay_decorators.hpp"
+#include "player/window/overlay_decorator.hpp"
 #include "player/window/play_figures.hpp"
 #include "player/window/play_options.hpp"
 
@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 /// Seconds since the command began.
 class Stopwatch {
@@ -41,6 +41,7 @@ class PlaySession {
   void open(const std::string& location);
   void use(std::unique_ptr<StreamInput> input);
   void set_overlay(Overlay overlay);
+  std::shared_ptr<OverlayDecorator> make_decorator(Overlay overlay) const;
   void next_overlay();
   void notify(std::string notice);
   /// Nothing is drawn while nothing changes; how long to sleep before looking again.
@@ -86,4 +87,4 @@ class PlaySession {
   bool finished_ = false;
 };
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 void run_play_window(const PlayOptions& options) {
   const Stopwatch watch;
@@ -14,4 +14,4 @@ void run_play_window(const PlayOptions& options) {
   PlaySession(options, watch, std::move(input)).run();
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -101,4 +101,4 @@ std::optional<std::uint64_t> draw_scrub_bar(const PlayerSnapshot& player, float 
   return std::nullopt;
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tvg::cli::theme {
+namespace tvg::player::theme {
 
 void apply(float scale) {
   ImGui::StyleColorsDark();
@@ -37,4 +37,4 @@ void apply(float scale) {
   load_font(std::round(15 * scale));
 }
 
-}  // namespace tvg::cli::theme
+}  // namespace tvg::player::theme

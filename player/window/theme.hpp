@@ -2,7 +2,7 @@
 #include <imgui.h>
 
 // The look of the window's controls: dark glass over a light scene.
-namespace tvg::cli::theme {
+namespace tvg::player::theme {
 
 inline constexpr ImU32 kText = IM_COL32(240, 242, 246, 255);
 inline constexpr ImU32 kFaintText = IM_COL32(168, 176, 190, 255);
@@ -18,4 +18,4 @@ inline constexpr ImU32 kPanel = IM_COL32(22, 25, 32, 218);
 /// usual one.
 void apply(float scale);
 
-}  // namespace tvg::cli::theme
+}  // namespace tvg::player::theme

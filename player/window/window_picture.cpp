@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 Image window_picture(int width, int height) {
   Image image{width, height, std::vector<std::uint8_t>(4 * std::size_t(width) * std::size_t(height))};
@@ -28,4 +28,4 @@ std::string free_picture_name() {
   }
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -19,6 +19,7 @@ TEST_F(ToolTest, UsageErrorsShowWhatIsRight) {
   expect_failure(encode + "--bits 25", 1, "1 to 24");
   expect_failure(encode + "--step 0.01:0.03", 1, "0.01:0.04");
   expect_failure(encode + "--step -1", 1, "0.01:0.04");
+  expect_failure(encode + "--step 1e-12", 1, "a step of at least");
   expect_failure(encode + "--bits 13:11 --important 0.35", 1, "35%");
   expect_failure(encode + "--bits 11 --important 35%", 1, "13:11");
   expect_failure(encode + "--predictor magic", 1, "elp");
@@ -78,6 +79,8 @@ TEST_F(ToolTest, EveryFileIsNamedOnce) {
     EXPECT_EQ(result.err.find(file), result.err.rfind(file)) << result.err;
     EXPECT_THAT(result.err, HasSubstr("frame")) << result.err;
     EXPECT_THAT(result.err, Not(HasSubstr("[invalid-input"))) << result.err;
+    EXPECT_EQ(run("tvg encode hand.obj " + file + " -o no.tvg --live --fps 1000").err, result.err);
+    EXPECT_EQ(run("tvg measure hand.obj " + file).err, result.err);
   }
   const Outcome piped = run("head -c 9999 hand.pc2 | tvg encode hand.obj - -o no.tvg");
   EXPECT_EQ(piped.status, 3);
@@ -96,6 +99,19 @@ TEST_F(ToolTest, EveryCutOfAStreamIsRefusedAndLeavesNothing) {
     expect_failure("tvg verify hand.tvg", 3, "hand.tvg");
     EXPECT_EQ(folder_.names(), before) << size;
   }
+}
+
+TEST_F(ToolTest, InfoOfACutFileNamesTheByteAtWhichItEnds) {
+  good("tvg encode hand.obj hand.pc2 -o hand.tvg --bits 20 --gop 6");
+  const std::string whole = folder_.read("hand.tvg");
+  for (const std::size_t size :
+       {std::size_t{100}, whole.size() / 3, 2 * whole.size() / 3, whole.size() - 1}) {
+    folder_.write("cut.tvg", whole.substr(0, size));
+    const std::string place = "byte " + std::to_string(size) + ",";
+    expect_failure("tvg info cut.tvg", 3, place);
+    expect_failure("cat cut.tvg | tvg info -", 3, place);
+  }
+  EXPECT_EQ(run("cat hand.tvg | tvg info - | tail -n +2").out, run("tvg info hand.tvg | tail -n +2").out);
 }
 
 TEST_F(ToolTest, FailuresKeepTheOldOutputAndLeaveNoTemporaryFile) {

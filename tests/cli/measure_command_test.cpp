@@ -183,7 +183,8 @@ bool is_violet(const std::uint8_t* pixel) {
   return pixel[2] > 1.4 * pixel[1] && pixel[0] > 1.1 * pixel[1];
 }
 
-std::size_t count_pixels(const Image& image, int left, int right, bool (*counts)(const std::uint8_t*)) {
+std::size_t count_pixels(const player::Image& image, int left, int right,
+                         bool (*counts)(const std::uint8_t*)) {
   std::size_t count = 0;
   for (int row = 0; row < image.height; ++row) {
     for (int column = left; column < right; ++column) count += counts(image.pixel(column, row)) ? 1 : 0;
@@ -198,8 +199,8 @@ TEST_F(MeasureCommand, DrawsCostAndFlagsSideBySide) {
   if (outcome.err.find("cannot draw without a display") != std::string::npos) GTEST_SKIP() << outcome.err;
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   good(command + "--important-above 9 --picture none.png -q");
-  const Image all = read_png(folder_.path("all.png"));
-  const Image none = read_png(folder_.path("none.png"));
+  const player::Image all = player::read_png(folder_.path("all.png"));
+  const player::Image none = player::read_png(folder_.path("none.png"));
   EXPECT_EQ(all.width, 320);
   EXPECT_EQ(all.height, 160);
   EXPECT_GT(count_pixels(all, 160, 320, is_orange), 800u)
@@ -218,9 +219,10 @@ TEST_F(MeasureCommand, DrawsTheSkeletonOverTheMesh) {
   const Outcome outcome = run(command + "curv --picture without.png -q");
   if (outcome.err.find("cannot draw without a display") != std::string::npos) GTEST_SKIP() << outcome.err;
   good(command + "curv+0*skel --picture with.png -q");
-  EXPECT_GT(
-      compare_images(read_png(folder_.path("without.png")), read_png(folder_.path("with.png")), 40).far_share,
-      0.01);
+  EXPECT_GT(player::compare_images(player::read_png(folder_.path("without.png")),
+                                   player::read_png(folder_.path("with.png")), 40)
+                .far_share,
+            0.01);
 }
 
 #endif

@@ -26,6 +26,8 @@ TEST_F(ToolTest, NumbersThatMakeNoSenseAreRefusedForEveryOption) {
       {"tvg measure hand.obj hand.pc2 --fps", false, false},
       {"tvg measure hand.obj hand.pc2 --gop", false, false},
       {"tvg measure hand.obj hand.pc2 --ply no.ply --frame", true, false},
+      {"tvg info hand.tvg --fps", false, false},
+      {"cat hand.tvg | tvg info - --fps", false, false},
       {"tvg compare hand.tvg hand.tvg --fps", false, false},
       {"tvg compare hand.tvg hand.tvg --hausdorff", false, false},
       {"tvg decode hand.tvg -o no.pc2 --frames", true, false},

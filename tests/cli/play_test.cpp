@@ -59,7 +59,7 @@ TEST_F(PlayTest, AScreenshotShowsMeshAndControls) {
       "tvg play hand.tvg --start 5 --overlay importance --size 640x400 --screenshot shot.png --report "
       "report.json");
   ASSERT_EQ(result.status, 0) << result.err;
-  const Image shot = read_png(folder_.path("shot.png"));
+  const player::Image shot = player::read_png(folder_.path("shot.png"));
   ASSERT_EQ(shot.width, 640);
   ASSERT_EQ(shot.height, 400);
   const auto differs = [&shot](int column, int row, int other_column, int other_row) {
@@ -71,6 +71,24 @@ TEST_F(PlayTest, AScreenshotShowsMeshAndControls) {
   for (int column = 1; column < 640; ++column) lively += differs(column, 170, column - 1, 170) ? 1 : 0;
   EXPECT_GT(lively, 20) << "no mesh in the middle";
   EXPECT_TRUE(differs(320, 380, 2, 380)) << "no controls at the bottom";
+}
+
+TEST_F(PlayTest, TheCostIsOfTheMeasureAskedFor) {
+  const auto shoot = [this](const std::string& options) {
+    const Outcome result = on_display(
+        "tvg play hand.tvg --start 5 --overlay cost --size 640x400 --screenshot "
+        "shot.png " +
+        options);
+    EXPECT_EQ(result.status, 0) << result.err;
+    player::Image shot = player::read_png(folder_.path("shot.png"));
+    // The panels tell times, which differ: what is compared is the mesh in the middle.
+    std::fill_n(shot.pixels.begin(), std::size_t{4} * 640 * 220, std::uint8_t{0});
+    std::fill(shot.pixels.begin() + std::ptrdiff_t{4} * 640 * 300, shot.pixels.end(), std::uint8_t{0});
+    return shot;
+  };
+  const player::Image curv = shoot("");
+  EXPECT_EQ(player::compare_images(curv, shoot("--measure curv"), 24).far_share, 0);
+  EXPECT_GT(player::compare_images(curv, shoot("--measure velocity"), 24).far_share, 0.005);
 }
 
 TEST_F(PlayTest, AStreamPlaysOverHttpWhileItIsServed) {
@@ -108,6 +126,7 @@ TEST_F(PlayTest, WhatCannotBePlayedEndsWithAMessage) {
   expect_failure("tvg play gone.tvg", 2, "gone.tvg");
   expect_failure("tvg play hand.tvg --overlay error", 1, "--ref");
   expect_failure("tvg play hand.tvg --speed 100", 1, "--speed");
+  expect_failure("tvg play hand.tvg --overlay cost --measure skel", 1, "--skeleton");
   const Outcome foreign = on_display("tvg play hand.obj --seconds 1.5 --size 320x240");
   EXPECT_EQ(foreign.status, 3);
   EXPECT_THAT(foreign.err, HasSubstr("hand.obj"));

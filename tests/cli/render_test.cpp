@@ -40,7 +40,7 @@ class Render : public ToolTest {
     return true;
   }
 
-  Image picture(const std::string& name) const { return read_png(folder_.path(name)); }
+  player::Image picture(const std::string& name) const { return player::read_png(folder_.path(name)); }
 };
 
 TEST_F(Render, NumbersPicturesAsFramesAre) {
@@ -64,6 +64,12 @@ TEST_F(Render, DrawsWhatComesThroughAPipe) {
   EXPECT_EQ(files(".png"), (std::vector<std::string>{"piped_0003.png", "piped_0004.png", "piped_0005.png"}));
 }
 
+TEST_F(Render, DrawsAFileThatTheShellRedirects) {
+  good("tvg render - -o redirected.png --frames 3-5 --size 96x72 -q <hand.tvg");
+  good("tvg render hand.tvg -o named.png --frames 3-5 --size 96x72 -q");
+  EXPECT_EQ(picture("redirected.png").pixels, picture("named.png").pixels);
+}
+
 TEST_F(Render, MakesOneSheetOfSeveralFrames) {
   good("tvg render hand.tvg -o sheet.png --size 320x240 -q");
   good("tvg render hand.tvg -o sheet2.png --size 320x240 --sheet 2x1 -q");
@@ -75,11 +81,61 @@ TEST_F(Render, MakesOneSheetOfSeveralFrames) {
 
 TEST_F(Render, DrawsEveryOverlay) {
   good("tvg render hand.tvg -o none.png --frames 6 --size 96x72 --no-labels -q");
-  const Image plain = picture("none.png");
+  const player::Image plain = picture("none.png");
   for (const std::string overlay : {"importance", "cost", "error --ref hand.obj hand.pc2"}) {
     good("tvg render hand.tvg -o overlay.png --frames 6 --size 96x72 --no-labels -q --overlay " + overlay);
-    EXPECT_GT(compare_images(plain, picture("overlay.png"), 24).far_share, 0.05) << overlay;
+    EXPECT_GT(player::compare_images(plain, picture("overlay.png"), 24).far_share, 0.05) << overlay;
   }
+}
+
+TEST_F(Render, ShowsTheCostOfTheMeasureAskedFor) {
+  corpus::write_skeleton(folder_.path("hand.skeleton.json"), corpus::make_hand({400, kFrames}).joints);
+  std::string weights;
+  for (std::uint32_t v = 0; v < hand_.mesh.vertex_count; ++v) weights += std::to_string(v % 7) + "\n";
+  folder_.write("w.txt", weights);
+  const auto draw = [this](const std::string& options) {
+    good("tvg render " + options + " -o c.png --frames 6 --size 96x72 --no-labels -q --overlay cost");
+    return picture("c.png");
+  };
+  const player::Image curv = draw("hand.tvg");
+  EXPECT_EQ(draw("hand.tvg --measure curv").pixels, curv.pixels);
+  for (const std::string options :
+       {"--measure velocity", "--alpha 1", "--smooth 4", "--measure weights --weights w.txt",
+        "--measure=-distance --viewpoint 0,5,-30", "--measure skel --skeleton hand.skeleton.json"}) {
+    EXPECT_GT(player::compare_images(curv, draw("hand.tvg " + options), 24).far_share, 0.01) << options;
+  }
+  good("tvg decode hand.tvg -o back.pc2 -q");
+  const std::string skel = " --measure curv+skel --skeleton hand.skeleton.json";
+  good("tvg encode back.obj back.pc2 -o whole.tvg --bits 20 -q");
+  EXPECT_LT(player::compare_images(draw("whole.tvg" + skel), draw("back.obj back.pc2" + skel), 24).far_share,
+            0.005)
+      << "a stream's joints are those of its frames";
+}
+
+TEST_F(Render, SaysWhichMeasureItShows) {
+  const auto draw = [this](const std::string& options) {
+    good("tvg render hand.tvg -o c.png --frames 6 --size 384x288 -q --overlay cost " + options);
+    return picture("c.png");
+  };
+  EXPECT_NE(draw("").pixels, draw("--alpha 0.5").pixels) << "the default is called so, and nothing else";
+}
+
+TEST_F(Render, RefusesAMeasureThatCannotBeShown) {
+  const std::string cost = "tvg render hand.tvg -o a.png --frames 6 --size 96x72 --overlay cost ";
+  expect_failure("tvg render hand.tvg -o a.png --measure velocity", 1, "--overlay cost");
+  expect_failure("tvg render hand.tvg -o a.png --overlay importance --smooth 2", 1, "--overlay cost");
+  expect_failure(cost + "--measure heat", 1, "velocity");
+  expect_failure(cost + "--measure skel", 1, "--skeleton");
+  expect_failure(cost + "--measure velocity --alpha 1", 1, "--alpha");
+  expect_failure(cost + "--measure skel --skeleton walk.bvh", 1, "JSON");
+  expect_failure("tvg render hand.obj hand.pc2 -o a.png --overlay cost --measure skel", 1, "skeleton");
+  folder_.write("w.txt", "1\n2\n");
+  expect_failure(cost + "--measure weights --weights w.txt", 1, "vertices");
+  corpus::write_skeleton(folder_.path("short.json"), corpus::make_hand({400, 3}).joints);
+  expect_failure(cost + "--measure skel --skeleton short.json", 3, "ends after 3 frames");
+  expect_failure("tvg render hand.tvg -o w.txt.png --overlay cost --measure weights --weights w.txt.png", 2,
+                 "w.txt.png");
+  EXPECT_TRUE(files(".png").empty());
 }
 
 TEST_F(Render, ShowsTheReferenceBeside) {

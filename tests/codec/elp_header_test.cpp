@@ -19,7 +19,9 @@ Lattice some_lattice() {
 Result<ElpHeader> read(Bytes fields) {
   GopHeader header;
   header.fields = fields;
-  return read_elp_header(header);
+  ElpHeader elp;
+  const Status status = read_elp_header(header, elp);
+  return status.ok() ? Result<ElpHeader>(elp) : Result<ElpHeader>(status.error());
 }
 
 /// The fields of a header with these channels and everything else in order.

@@ -37,13 +37,14 @@ TEST(Refusals, OptionsOutsideTheirRangeAreRefused) {
       {"step below 0", [](EncodeOptions& o) { o.step = -1; }},
       {"step nan", [](EncodeOptions& o) { o.step = kNan; }},
       {"step infinite", [](EncodeOptions& o) { o.step = kInf; }},
+      {"coarse step infinite", [](EncodeOptions& o) { o.step = 1e308, o.coarse_bits = 1; }},
       {"step too small", [](EncodeOptions& o) { o.step = 1e-9; }},
       {"share below 0", [](EncodeOptions& o) { o.importance.share = -0.01; }},
       {"share above 1", [](EncodeOptions& o) { o.importance.share = 1.01; }},
       {"share nan", [](EncodeOptions& o) { o.importance.share = kNan; }},
-      {"alpha below 0", [](EncodeOptions& o) { o.importance.alpha = -0.01; }},
-      {"alpha above 1", [](EncodeOptions& o) { o.importance.alpha = 1.01; }},
-      {"alpha nan", [](EncodeOptions& o) { o.importance.alpha = kNan; }},
+      {"alpha below 0", [](EncodeOptions& o) { o.importance.curv.alpha = -0.01; }},
+      {"alpha above 1", [](EncodeOptions& o) { o.importance.curv.alpha = 1.01; }},
+      {"alpha nan", [](EncodeOptions& o) { o.importance.curv.alpha = kNan; }},
       {"no frames per GOP", [](EncodeOptions& o) { o.gop_frames = 0; }},
       {"too many frames per GOP", [](EncodeOptions& o) { o.gop_frames = 65537; }},
   };
@@ -53,6 +54,33 @@ TEST(Refusals, OptionsOutsideTheirRangeAreRefused) {
     fault(options);
     EXPECT_EQ(refusal(triangle(), options).code, ErrorCode::kInvalidArgument);
   }
+}
+
+/// A box around the origin that goes from `low` to `high` along x.
+BoundingBox box_of(double low, double high) {
+  BoundingBox box;
+  box.extend(low, 0, 0);
+  box.extend(high, 0, 0);
+  return box;
+}
+
+TEST(Refusals, ABoxThatNoLatticeCanCoverIsRefused) {
+  EncodeOptions options;
+  for (const BoundingBox& box : {BoundingBox(), box_of(-1e308, 1e308)}) {
+    options.box = box;
+    EXPECT_EQ(refusal(triangle(), options).code, ErrorCode::kInvalidArgument);
+  }
+}
+
+TEST(Refusals, ABoxTooSmallToBeDividedIsStillALattice) {
+  EncodeOptions options;
+  options.box = box_of(0, 5e-324);
+  Sequence origin = triangle();
+  for (FramePositions& frame : origin.frames) frame.assign(9, 0);
+  const DecodedStream back = decode_stream(encode_sequence(origin, options));
+  ASSERT_EQ(back.frames.size(), 3u);
+  EXPECT_TRUE(back.damage.empty());
+  EXPECT_NEAR(back.frames[0].positions[0], 0, 1e-6);
 }
 
 TEST(Refusals, CoordinatesThatAreNoNumbersAreRefusedWithTheirPlace) {

@@ -132,7 +132,7 @@ TEST(Codec, ImportanceFollowsShareThresholdAndAlpha) {
   options.gop_frames = 4;
   for (const double share : {0.0, 0.01, 0.35, 0.999, 1.0}) {
     options.importance.share = share;
-    options.importance.alpha = share;
+    options.importance.curv.alpha = share;
     ASSERT_NO_FATAL_FAILURE(expect_lattice_back(sequence, options)) << share;
   }
   for (const double threshold : {-1.0, 0.0, 0.1, 0.2, 2.0}) {

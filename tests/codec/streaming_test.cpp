@@ -76,17 +76,13 @@ TEST(Streaming, AFrameComesOutOnceItsLastByteIsIn) {
 }
 
 /// A source that can be read only once, as a pipe.
-class OnceSource final : public FrameSource {
+class OnceSource final : public SourceDecorator {
  public:
-  explicit OnceSource(const Sequence& sequence) : inner_(sequence) {}
+  explicit OnceSource(const Sequence& sequence)
+      : SourceDecorator(std::make_unique<SequenceSource>(sequence)) {}
 
-  const Mesh& mesh() const override { return inner_.mesh(); }
   std::optional<std::uint64_t> frame_count() const override { return {}; }
-  Result<bool> read_frame(std::span<float> positions) override { return inner_.read_frame(positions); }
   bool rewind() override { return false; }
-
- private:
-  SequenceSource inner_;
 };
 
 TEST(Streaming, ASourceReadOnceGivesEachGopItsOwnBox) {

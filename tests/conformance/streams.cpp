@@ -26,17 +26,13 @@ using Stream = std::vector<std::uint8_t>;
 }
 
 /// A source that stands for a pipe: no length, no way back.
-class PipeSource final : public FrameSource {
+class PipeSource final : public SourceDecorator {
  public:
-  explicit PipeSource(const Sequence& sequence) : source_(sequence) {}
+  explicit PipeSource(const Sequence& sequence)
+      : SourceDecorator(std::make_unique<SequenceSource>(sequence)) {}
 
-  const Mesh& mesh() const override { return source_.mesh(); }
   std::optional<std::uint64_t> frame_count() const override { return std::nullopt; }
-  Result<bool> read_frame(std::span<float> positions) override { return source_.read_frame(positions); }
   bool rewind() override { return false; }
-
- private:
-  SequenceSource source_;
 };
 
 Stream encode_source(FrameSource& source, const EncodeOptions& options) {

@@ -16,7 +16,8 @@ bool exhaustive() {
 }
 
 std::vector<std::string_view> damaged_streams() {
-  if (!exhaustive()) return {"metadata", "step", "hybrid_time", "gops", "two_meshes", "meshes_again", "unknown_chunk"};
+  if (!exhaustive())
+    return {"metadata", "step", "hybrid_time", "gops", "two_meshes", "meshes_again", "unknown_chunk"};
   std::vector<std::string_view> names;
   for (const auto& stream : conformance::conformance_streams()) names.push_back(stream.name);
   return names;

@@ -20,7 +20,7 @@ constexpr std::uint8_t kOpenEnded = 2;
 constexpr std::uint8_t kRewind = 4;
 constexpr std::uint8_t kSkip = 8;
 
-void read_frames(tvg::cli::SkippableSource& source) {
+void read_frames(tvg::FrameSource& source) {
   tvg::FramePositions positions(3 * std::size_t{source.mesh().vertex_count});
   for (;;) {
     const tvg::Result<bool> read = source.read_frame(positions);

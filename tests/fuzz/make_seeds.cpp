@@ -6,12 +6,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <vector>
 
-// tvg_make_seeds STREAMS FOLDER: turns the valid streams of corpus/conformance into seeds for each fuzz target
-// in a folder of its name.
+// tvg_make_seeds STREAMS FOLDER: turns the valid streams of corpus/conformance into seeds for each fuzz
+// target in a folder of its name.
 namespace {
 
 namespace fs = std::filesystem;
@@ -62,6 +63,35 @@ bool write_c_api_seeds(const fs::path& folder, const std::string& name,
   return true;
 }
 
+/// The seeds of encoding in C: scripts as encoder_script.cpp reads them, which take no stream.
+bool write_encoder_seeds(const fs::path& folder) {
+  constexpr std::uint8_t kCreate = 0, kMetadata = 1, kMesh = 2, kWildFrame = 3, kFrames = 4, kFinish = 6;
+  constexpr std::uint8_t kJoin = 7 | 1 << 3, kCompare = 7;
+  const std::vector<std::uint8_t> square = {kMesh, 4, 2, 0, 1, 2, 0, 2, 3};
+  const std::vector<std::vector<std::uint8_t>> starts = {
+      {kCreate},
+      {kCreate | 1 << 3, 13, 9},                                  // bits
+      {kCreate | 2 << 3, 100, 3, kMetadata | 26 << 3, 'k', 'v'},  // step
+      {kCreate | 4 << 3, 90, 40, 2, 3, 1, 1, 0, 0, 0, 9, 4},      // share, predictor, GOPs, order
+      {kCreate | 8 << 3, 2, 30, 30, 1, 180, 200, 180, 200, 180, 200, 180, 100, 180, 100, 180, 100, 2},  // box
+      {kCreate | 16 << 3, 5},  // a sink that gives up
+  };
+  std::vector<std::uint8_t> all;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    std::vector<std::uint8_t> seed = starts[i];
+    const auto add = [&seed](std::initializer_list<int> calls) {
+      for (const int call : calls) seed.push_back(static_cast<std::uint8_t>(call));
+    };
+    seed.insert(seed.end(), square.begin(), square.end());
+    add({kFrames | 6 << 3, 7, kWildFrame, 9, 2, 3, 40, 112, 8, 20, 60, 116, 1});
+    seed.insert(seed.end(), square.begin(), square.end());
+    add({kFrames | 2 << 3, 8, kFinish, kCompare, kJoin});
+    if (!write_file(folder / ("script-" + std::to_string(i)), seed)) return false;
+    all.insert(all.end(), seed.begin(), seed.end());
+  }
+  return write_file(folder / "script-all", all);
+}
+
 /// The connectivity decoder's seeds: one for each mesh, in the layout that connectivity_fuzz.cpp gives.
 bool write_connectivity_seeds(const fs::path& folder, const std::string& name, tvg::Bytes stream) {
   int number = 0;
@@ -96,7 +126,9 @@ int main(int argc, char** argv) {
   fs::create_directories(target / "decoder_fuzz", failed);
   fs::create_directories(target / "connectivity_fuzz", failed);
   fs::create_directories(target / "c_api_fuzz", failed);
+  fs::create_directories(target / "c_api_encoder_fuzz", failed);
   fs::create_directories(target / "streams_fuzz", failed);
+  if (!write_encoder_seeds(target / "c_api_encoder_fuzz")) return 3;
   int count = 0;
   for (const auto& entry : fs::recursive_directory_iterator(argv[1], failed)) {
     if (entry.path().extension() != ".tvg" || entry.path().parent_path().filename() == "negative") continue;

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Promises about the source tree itself.
@@ -112,6 +113,22 @@ TEST(Layout, NoIncludeAtTheTopRunsUpwardsOrSideways) {
           EXPECT_TRUE(other == folder || top_rank(other) < top_rank(folder))
               << folder << "/" << file << " includes " << header;
         }
+      }
+    }
+  }
+}
+
+/// The rooms of the tool and the namespace of each; what is below it is the room's own.
+const std::vector<std::pair<std::string, std::string>> kNamespaces = {
+    {"tool", "tvg::cli"},      {"encoder", "tvg::cli"},   {"decoder", "tvg::cli"},
+    {"server", "tvg::server"}, {"player", "tvg::player"}, {"cli", "tvg::cli"}};
+
+TEST(Layout, EveryRoomHasItsNamespace) {
+  for (const auto& [folder, name] : kNamespaces) {
+    for (const std::string& file : sources_below(kRoot / folder)) {
+      for (const std::string& opened : matches(read(kRoot / folder / file), "\nnamespace (tvg[a-z_:]*)")) {
+        EXPECT_TRUE(opened == name || opened.rfind(name + "::", 0) == 0)
+            << folder << "/" << file << " has " << opened;
       }
     }
   }

@@ -28,7 +28,7 @@ TEST(Velocity, IsZeroInOneFrameAndWithoutExtent) {
 
 TEST(Distance, IsTheMeanOverTheFramesAsAShareOfTheDiagonal) {
   Importance options;
-  options.viewpoint = {0, 0, -3};
+  options.distance.viewpoint = {0, 0, -3};
   // Box 4 x 0 x 3. Vertex 0: 5 and 3 away; vertex 1: 3 and 6.
   const std::vector<FramePositions> frames = {{4, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 3}};
   const std::vector<double> distance = evaluate("distance", kPoints, frames, options);
@@ -39,14 +39,14 @@ TEST(Distance, IsTheMeanOverTheFramesAsAShareOfTheDiagonal) {
 
 TEST(Distance, FavoursNearVerticesWithANegativeWeight) {
   Importance importance;
-  importance.viewpoint = {0, 0, 0};
+  importance.distance.viewpoint = {0, 0, 0};
   importance.share = 0.5;
   const std::vector<FramePositions> frames = {{1, 0, 0, 9, 0, 0}};
   importance.criteria = {{"distance", 1}};
   EXPECT_THAT(measure(kPoints, frames, {}, {}, importance)->flags, ElementsAre(0, 1));
   importance.criteria = {{"distance", -1}};
   EXPECT_THAT(measure(kPoints, frames, {}, {}, importance)->flags, ElementsAre(1, 0));
-  importance.viewpoint[1] = std::numeric_limits<double>::infinity();
+  importance.distance.viewpoint[1] = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(measure(kPoints, frames, {}, {}, importance));
 }
 

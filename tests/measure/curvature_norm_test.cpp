@@ -100,7 +100,7 @@ TEST(CurvatureNorm, OfAFrameDoesNotDependOnThoseBesideIt) {
     }
   }
   Importance options;
-  options.alpha = 0;
+  options.curv.alpha = 0;
   const auto value = test::evaluate("curvature-norm", sequence.mesh, sequence.frames, options);
   for (std::size_t v = 0; v < mean.size(); ++v) ASSERT_NEAR(value[v], mean[v], 1e-9 * mean[v]) << v;
 }
@@ -175,9 +175,9 @@ TEST(CurvatureNorm, IsWeighedOverTimeAsEquation3) {
   Sequence sequence = tube(2);
   sequence.frames.push_back(tube(1).frames[0]);
   Importance options;
-  options.alpha = 1;
+  options.curv.alpha = 1;
   const auto change = test::evaluate("curvature-norm", sequence.mesh, sequence.frames, options);
-  options.alpha = 0;
+  options.curv.alpha = 0;
   const auto mean = test::evaluate("curvature-norm", sequence.mesh, sequence.frames, options);
   // 1/2 and 1: a mean of 3/4, off by 1/4 both times.
   for (std::size_t v = 96; v < 480; ++v) ASSERT_NEAR(change[v] / mean[v], 1.0 / 3, 1e-3);

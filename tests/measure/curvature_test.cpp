@@ -98,7 +98,7 @@ TEST(CurvatureOverTime, IsEquation3WorkedByHandOverThreeFrames) {
   const double deviation = (mean + (k - mean) + mean) / 3;  // 4 k / 9
   for (const double alpha : {0.0, 0.25, 0.5, 1.0}) {
     Importance options;
-    options.alpha = alpha;
+    options.curv.alpha = alpha;
     const std::vector<double> value = test::evaluate("curv", kFold, frames, options);
     EXPECT_NEAR(value[0], alpha * deviation + (1 - alpha) * mean, 1e-7) << alpha;
     EXPECT_NEAR(value[1], value[0], 1e-12);
@@ -110,9 +110,9 @@ TEST(CurvatureOverTime, IsEquation3WorkedByHandOverThreeFrames) {
 TEST(CurvatureOverTime, StillFramesHaveNoDeviation) {
   const std::vector<FramePositions> frames(3, fold(1, 1, 1.0));
   Importance options;
-  options.alpha = 1;
+  options.curv.alpha = 1;
   EXPECT_NEAR(test::evaluate("curv", kFold, frames, options)[0], 0, 1e-12);
-  options.alpha = 0;
+  options.curv.alpha = 0;
   EXPECT_NEAR(test::evaluate("curv", kFold, frames, options)[0], curvature_at(0, kFold, frames[0]), 1e-12);
 }
 

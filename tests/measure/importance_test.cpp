@@ -83,11 +83,11 @@ TEST(Cost, IsEquation2WithWeightsOfEitherSign) {
                          return values;
                        }};
   const Criterion alpha{"alpha", "constant", [](const CriterionInput& input) {
-                          return std::vector<double>(input.mesh().vertex_count, input.options.alpha);
+                          return std::vector<double>(input.mesh().vertex_count, input.options.curv.alpha);
                         }};
   const Mesh mesh{3, {}};
   Importance options;
-  options.alpha = 0.25;
+  options.curv.alpha = 0.25;
   const Skeleton none;
   const Topology topology(mesh);
   const CriterionInput input{topology, {}, options, none, {}, {}};

@@ -20,7 +20,7 @@ std::vector<double> skel(const Skeleton& skeleton, const Joints& joints, const F
   const std::vector<FramePositions> frames(joints.size(), vertices);
   const Topology topology(mesh);
   const std::vector<JointMotion> motions =
-      judge_joints(joint_angle_sums(skeleton, joints), joints.size() - 1, options.skel_threshold);
+      judge_joints(joint_angle_sums(skeleton, joints), joints.size() - 1, options.skel.threshold);
   return skeleton_criterion({topology, frames, options, skeleton, joints, motions});
 }
 
@@ -131,9 +131,9 @@ TEST(Skel, IsEquation6ByNearestJointInTheFirstFrame) {
   const FramePositions vertices = {0.1F, 0, 0, 0.9F, 0, 0, 2, 0, 0};
   EXPECT_THAT(skel(arm(), joints, vertices), ElementsAre(0, 1, 0));
   Importance options;
-  options.skel_alpha = 0.75;
+  options.skel.alpha = 0.75;
   EXPECT_THAT(skel(arm(), joints, vertices, options), ElementsAre(0.25, 0.75, 0.25));
-  options.skel_threshold = 91;
+  options.skel.threshold = 91;
   EXPECT_THAT(skel(arm(), joints, vertices, options), Each(0.25));
 }
 
@@ -141,7 +141,7 @@ TEST(Skel, TakesTheRegionsOfSkinWeightsWhenAsked) {
   Skeleton skinned = arm();
   skinned.heaviest_joint = {1, 0, 2};
   Importance options;
-  options.skel_region = JointRegion::kHeaviest;
+  options.skel.region = JointRegion::kHeaviest;
   EXPECT_THAT(skel(skinned, {bent_arm(0), bent_arm(90)}, FramePositions(9, 0.0F), options),
               ElementsAre(1, 0, 0));
 }
@@ -163,7 +163,7 @@ TEST(Skel, RefusesWhatItCannotUse) {
   EXPECT_THAT(message({{"a", "b"}, {-1}, {}}), testing::HasSubstr("parents"));
   EXPECT_THAT(message({{"a", "b"}, {1, -1}, {}}), testing::HasSubstr("before its parent"));
   EXPECT_THAT(message({{"a"}, {-2}, {}}), testing::HasSubstr("before its parent"));
-  importance.skel_region = JointRegion::kHeaviest;
+  importance.skel.region = JointRegion::kHeaviest;
   EXPECT_THAT(message(arm()), testing::HasSubstr("no skin weights"));
   Skeleton skinned = arm();
   skinned.heaviest_joint = {0, 0, 3};
@@ -173,11 +173,11 @@ TEST(Skel, RefusesWhatItCannotUse) {
   skinned.heaviest_joint = {0, 1, 2};
   EXPECT_EQ(message(skinned), "");
   for (const double alpha : {-0.1, 1.1, std::nan("")}) {
-    importance.skel_alpha = alpha;
+    importance.skel.alpha = alpha;
     EXPECT_NE(message(skinned), "") << alpha;
   }
-  importance.skel_alpha = 1;
-  importance.skel_threshold = -1;
+  importance.skel.alpha = 1;
+  importance.skel.threshold = -1;
   EXPECT_THAT(message(skinned), testing::HasSubstr("threshold"));
 }
 

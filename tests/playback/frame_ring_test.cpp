@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 std::shared_ptr<PlayerFrame> frame(std::uint64_t number) {
@@ -93,4 +93,4 @@ TEST(FramePool, UsesAFrameAgainOnceNobodyHoldsIt) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

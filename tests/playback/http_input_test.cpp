@@ -8,9 +8,9 @@
 namespace tvg::test {
 namespace {
 
-using cli::HttpInput;
-using cli::HttpOptions;
-using cli::StreamLoader;
+using player::HttpInput;
+using player::HttpOptions;
+using player::StreamLoader;
 using std::chrono::milliseconds;
 using testing::Contains;
 using testing::HasSubstr;
@@ -86,7 +86,7 @@ TEST(HttpInput, FramesComeBeforeTheDownloadIsOver) {
   StreamServer server(long_stream(), behaviour);
   StreamLoader loader(std::make_unique<HttpInput>(server.url(), patient()));
   for (int f = 0; f < 10; ++f) expect_frame(loader, long_frames().frames[f]);
-  const cli::LoaderSnapshot snapshot = loader.snapshot();
+  const player::LoaderSnapshot snapshot = loader.snapshot();
   EXPECT_LT(snapshot.input.bytes_received, long_stream().size());
 }
 
@@ -98,7 +98,7 @@ TEST(HttpInput, ASeekAsksForTheBytesOfItsGopOnly) {
   expect_frame(loader, long_frames().frames[0]);
   loader.seek(52);
   expect_frame(loader, long_frames().frames[52]);
-  const cli::GopMarks gops = loader.snapshot().gops;
+  const player::GopMarks gops = loader.snapshot().gops;
   ASSERT_EQ(gops->size(), 12u);
   ASSERT_EQ((*gops)[10].first_frame, 50u);
   const std::vector<std::string> requests = server.requests();
@@ -260,7 +260,7 @@ TEST(HttpInput, ALiveStreamPlaysToItsEnd) {
   StreamServer server(long_stream(), behaviour);
   StreamLoader loader(std::make_unique<HttpInput>(server.url(), patient()));
   expect_all_frames(loader);
-  ASSERT_TRUE(eventually([&] { return loader.snapshot().state == cli::LoaderSnapshot::State::kEnded; }));
+  ASSERT_TRUE(eventually([&] { return loader.snapshot().state == player::LoaderSnapshot::State::kEnded; }));
   EXPECT_EQ(loader.snapshot().frame_count, 60u);
 }
 
@@ -272,11 +272,11 @@ TEST(HttpInput, ALiveStreamThatBreaksOffIsOpenedAgainAndCountsOn) {
   StreamServer server(long_stream(), behaviour);
   StreamLoader loader(std::make_unique<HttpInput>(server.url(), patient()));
   std::uint64_t number = 0;
-  std::shared_ptr<const cli::PlayerFrame> frame;
+  std::shared_ptr<const player::PlayerFrame> frame;
   ASSERT_TRUE(eventually([&] {
     frame = loader.show(number);
     if (frame) ++number;
-    return loader.snapshot().state == cli::LoaderSnapshot::State::kEnded && !frame;
+    return loader.snapshot().state == player::LoaderSnapshot::State::kEnded && !frame;
   })) << loader.snapshot().message;
   EXPECT_GT(number, 60u) << "the frames of both";
   EXPECT_LT(number, 120u);
@@ -304,7 +304,7 @@ TEST(HttpInput, FetchesNoFurtherAheadThanAllowed) {
   HttpInput input(server.url(), options);
   std::vector<std::uint8_t> piece(1000);
   ASSERT_TRUE(input.read(0, piece));
-  ASSERT_TRUE(eventually([&] { return input.status().activity == cli::InputStatus::Activity::kResting; }));
+  ASSERT_TRUE(eventually([&] { return input.status().activity == player::InputStatus::Activity::kResting; }));
   EXPECT_LE(input.status().bytes_received, (128u << 10) + (64u << 10));
   const Result<Stream> bytes = read_all(input);
   ASSERT_TRUE(bytes) << bytes.error().message;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 /// Shows the frame wanted at `now`.
@@ -118,14 +118,14 @@ TEST(PlaybackClock, StepsPauseAndGoRoundLoops) {
 }
 
 TEST(PlaybackClock, ReadsFrameRatesOfMetadata) {
-  EXPECT_EQ(parse_frame_rate("30"), 30.0);
-  EXPECT_EQ(parse_frame_rate("23.976"), 23.976);
-  EXPECT_DOUBLE_EQ(*parse_frame_rate("30000/1001"), 30000.0 / 1001);
+  EXPECT_EQ(cli::parse_frame_rate("30"), 30.0);
+  EXPECT_EQ(cli::parse_frame_rate("23.976"), 23.976);
+  EXPECT_DOUBLE_EQ(*cli::parse_frame_rate("30000/1001"), 30000.0 / 1001);
   for (const char* text :
        {"", "0", "-5", "thirty", "30/0", "30/", "/2", "1e9", "nan", "inf", "30 fps", "30/1/1"}) {
-    EXPECT_FALSE(parse_frame_rate(text)) << text;
+    EXPECT_FALSE(cli::parse_frame_rate(text)) << text;
   }
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -54,8 +54,9 @@ bool eventually(const Condition& condition, std::chrono::seconds bound = std::ch
 }
 
 /// Waits for the frame that stands at `number`.
-inline std::shared_ptr<const cli::PlayerFrame> await_frame(cli::StreamLoader& loader, std::uint64_t number) {
-  std::shared_ptr<const cli::PlayerFrame> frame;
+inline std::shared_ptr<const player::PlayerFrame> await_frame(player::StreamLoader& loader,
+                                                              std::uint64_t number) {
+  std::shared_ptr<const player::PlayerFrame> frame;
   eventually([&] {
     frame = loader.show(number);
     return frame || loader.supply().failed;
@@ -64,7 +65,7 @@ inline std::shared_ptr<const cli::PlayerFrame> await_frame(cli::StreamLoader& lo
   return frame;
 }
 
-inline void expect_frame(cli::StreamLoader& loader, const DecodedFrame& expected) {
+inline void expect_frame(player::StreamLoader& loader, const DecodedFrame& expected) {
   const auto frame = await_frame(loader, expected.number);
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->number, expected.number);

@@ -8,24 +8,24 @@
 namespace tvg::test {
 namespace {
 
-using cli::Player;
-using cli::PlayerOptions;
-using cli::PlayerSnapshot;
+using player::Player;
+using player::PlayerOptions;
+using player::PlayerSnapshot;
 using Status = PlayerSnapshot::Status;
 
 /// A player whose time passes only while nothing is awaited, so that tests do not depend on speed.
 class Playing {
  public:
   explicit Playing(const Stream& stream, const PlayerOptions& options = {})
-      : file_(stream), player_(cli::open_stream_input(file_.path()), options) {}
+      : file_(stream), player_(player::open_stream_input(file_.path()), options) {}
 
   Player& player() { return player_; }
   double now() const { return now_; }
 
   /// The next picture, `seconds` later, once what it wants is there.
-  std::shared_ptr<const cli::PlayerFrame> picture(double seconds) {
+  std::shared_ptr<const player::PlayerFrame> picture(double seconds) {
     now_ += seconds;
-    std::shared_ptr<const cli::PlayerFrame> frame;
+    std::shared_ptr<const player::PlayerFrame> frame;
     EXPECT_TRUE(eventually([&] {
       frame = player_.update(now_);
       const Status status = player_.snapshot().status;
@@ -97,7 +97,7 @@ TEST(Player, StepsGoToTheNeighbouringFrameHoweverFar) {
 TEST(Player, PlaysARangeAgainAndAgain) {
   Playing playing(encoded("toy", 5));
   playing.picture(0);
-  playing.player().set_range(cli::LoopRange{4, 6}, playing.now());
+  playing.player().set_range(player::LoopRange{4, 6}, playing.now());
   for (int f = 0; f < 12; ++f) {
     EXPECT_EQ(playing.picture(f == 0 ? 0 : 1.0 / 25)->number, static_cast<std::uint64_t>(4 + f % 3)) << f;
   }
@@ -125,7 +125,7 @@ TEST(Player, ShowsTheLastFrameWhileTheNextIsNotThere) {
   const DecodedStream plain = decode_stream(stream);
   const auto half = static_cast<std::size_t>(plain.index[2].offset);
   std::thread first([&] { EXPECT_EQ(::write(ends[1], stream.data(), half), static_cast<ssize_t>(half)); });
-  Player player(std::make_unique<cli::PipeInput>("a pipe", ends[0]));
+  Player player(std::make_unique<player::PipeInput>("a pipe", ends[0]));
   double now = 50;
   EXPECT_TRUE(eventually([&] {
     now += 0.01;
@@ -152,7 +152,7 @@ TEST(Player, AFailedStreamKeepsItsFrames) {
   Stream stream = encoded("toy", 5);
   stream.resize(static_cast<std::size_t>(decode_stream(stream).index[2].offset) + 300);
   const TemporaryFile file(stream);
-  Player player(cli::open_stream_input(file.path()));
+  Player player(player::open_stream_input(file.path()));
   double now = 0;
   EXPECT_TRUE(eventually([&] {
     now += 0.01;

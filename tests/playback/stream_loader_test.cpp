@@ -16,8 +16,8 @@
 namespace tvg::test {
 namespace {
 
-using cli::LoaderSnapshot;
-using cli::StreamLoader;
+using player::LoaderSnapshot;
+using player::StreamLoader;
 using testing::HasSubstr;
 
 /// Bytes that come through a pipe.
@@ -38,8 +38,8 @@ class PipedStream {
   PipedStream(const PipedStream&) = delete;
   PipedStream& operator=(const PipedStream&) = delete;
 
-  std::unique_ptr<cli::StreamInput> input(std::uint64_t limit = cli::PipeInput::kDefaultLimit) {
-    return std::make_unique<cli::PipeInput>("a pipe", ends_[0], limit);
+  std::unique_ptr<player::StreamInput> input(std::uint64_t limit = player::PipeInput::kDefaultLimit) {
+    return std::make_unique<player::PipeInput>("a pipe", ends_[0], limit);
   }
 
  private:
@@ -67,7 +67,7 @@ TEST(StreamLoader, EveryConformanceStreamGivesTheFramesOfAPlainDecoder) {
     SCOPED_TRACE(entry.path().filename());
     std::ifstream file(entry.path(), std::ios::binary);
     const Stream bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    StreamLoader loader(cli::open_stream_input(entry.path().string()));
+    StreamLoader loader(player::open_stream_input(entry.path().string()));
     for (const DecodedFrame& frame : decode_stream(bytes).frames) expect_frame(loader, frame);
     ++streams;
   }
@@ -76,7 +76,7 @@ TEST(StreamLoader, EveryConformanceStreamGivesTheFramesOfAPlainDecoder) {
 
 TEST(StreamLoader, SaysWhatIsKnownOfAStream) {
   const TemporaryFile file(encoded("toy", 5));
-  StreamLoader loader(cli::open_stream_input(file.path()));
+  StreamLoader loader(player::open_stream_input(file.path()));
   await_frame(loader, 11);
   ASSERT_TRUE(eventually([&] { return loader.snapshot().has_index; }));
   const LoaderSnapshot snapshot = loader.snapshot();
@@ -85,8 +85,8 @@ TEST(StreamLoader, SaysWhatIsKnownOfAStream) {
   ASSERT_EQ(snapshot.gops->size(), 3u);
   EXPECT_EQ((*snapshot.gops)[2].first_frame, 10u);
   EXPECT_EQ((*snapshot.gops)[2].frame_count, 2u);
-  EXPECT_EQ(snapshot.buffered, (std::vector<cli::FrameRun>{{0, 12}}));
-  EXPECT_EQ(snapshot.decoded, (std::vector<cli::FrameRun>{{0, 12}}));
+  EXPECT_EQ(snapshot.buffered, (std::vector<player::FrameRun>{{0, 12}}));
+  EXPECT_EQ(snapshot.decoded, (std::vector<player::FrameRun>{{0, 12}}));
   EXPECT_EQ(loader.frame_bytes(3, 6).size(), 4u);
   EXPECT_GT(loader.frame_bytes(3, 3).at(0).bytes, 0u);
 }
@@ -96,7 +96,7 @@ TEST(StreamLoader, SeeksAnywhereGiveTheRightFrameWithAnIndexAndWithout) {
   const DecodedStream plain = decode_stream(stream);
   const TemporaryFile file(stream);
   PipedStream pipe(stream);
-  StreamLoader from_file(cli::open_stream_input(file.path()), {.ring_frames = 2});
+  StreamLoader from_file(player::open_stream_input(file.path()), {.ring_frames = 2});
   StreamLoader from_pipe(pipe.input(), {.ring_frames = 2});
   std::mt19937 random(7);
   for (int i = 0; i < 60; ++i) {
@@ -112,7 +112,7 @@ TEST(StreamLoader, SeeksInQuickSuccessionEndAtTheLastOne) {
   const Stream stream = encoded("toy", 4);
   const DecodedStream plain = decode_stream(stream);
   const TemporaryFile file(stream);
-  StreamLoader loader(cli::open_stream_input(file.path()), {.ring_frames = 2});
+  StreamLoader loader(player::open_stream_input(file.path()), {.ring_frames = 2});
   std::mt19937 random(3);
   for (int round = 0; round < 20; ++round) {
     for (int i = 0; i < 10; ++i) loader.seek(random() % 12);
@@ -130,7 +130,7 @@ TEST(StreamLoader, ADamagedGopIsHeldAndMarked) {
   ASSERT_FALSE(plain.damage.empty());
   ASSERT_LT(plain.frames.size(), decode_stream(stream).frames.size());
   const TemporaryFile file(damaged);
-  StreamLoader loader(cli::open_stream_input(file.path()));
+  StreamLoader loader(player::open_stream_input(file.path()));
   std::size_t next = 0;
   const std::uint64_t count = decode_stream(stream).frames.size();
   for (std::uint64_t number = 0; number < count; ++number) {
@@ -150,15 +150,15 @@ TEST(StreamLoader, ADamagedGopIsHeldAndMarked) {
 
 TEST(StreamLoader, MemoryIsBoundedByTheRing) {
   const TemporaryFile file(encoded("toy", 5));
-  StreamLoader loader(cli::open_stream_input(file.path()), {.ring_frames = 4});
-  loader.set_loop(cli::LoopRange{});
+  StreamLoader loader(player::open_stream_input(file.path()), {.ring_frames = 4});
+  loader.set_loop(player::LoopRange{});
   for (int round = 0; round < 10; ++round) {
     for (std::uint64_t f = 0; f < 12; ++f) ASSERT_TRUE(await_frame(loader, f));
   }
   EXPECT_GE(loader.snapshot().frames_decoded, 100u);
   EXPECT_LE(loader.snapshot().frame_slots, 8u) << "4 in the ring and 4 outside";
 
-  StreamLoader tight(cli::open_stream_input(file.path()), {.ring_bytes = 1});
+  StreamLoader tight(player::open_stream_input(file.path()), {.ring_bytes = 1});
   await_frame(tight, 0);
   EXPECT_EQ(tight.snapshot().ring_capacity, 2u);
 }
@@ -167,8 +167,8 @@ TEST(StreamLoader, ALoopGoesOnWithItsFirstFrame) {
   const Stream stream = encoded("toy", 5);
   const DecodedStream plain = decode_stream(stream);
   const TemporaryFile file(stream);
-  StreamLoader loader(cli::open_stream_input(file.path()), {.ring_frames = 4});
-  loader.set_loop(cli::LoopRange{3, 8});
+  StreamLoader loader(player::open_stream_input(file.path()), {.ring_frames = 4});
+  loader.set_loop(player::LoopRange{3, 8});
   loader.seek(3);
   for (int round = 0; round < 3; ++round) {
     for (std::uint64_t f = 3; f <= 8; ++f) ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[f]));
@@ -177,7 +177,7 @@ TEST(StreamLoader, ALoopGoesOnWithItsFirstFrame) {
   loader.seek(9);
   for (std::uint64_t f = 9; f < 12; ++f) ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[f]));
   ASSERT_TRUE(eventually([&] { return loader.snapshot().state == LoaderSnapshot::State::kEnded; }));
-  loader.set_loop(cli::LoopRange{});
+  loader.set_loop(player::LoopRange{});
   expect_frame(loader, plain.frames[0]);
 }
 
@@ -186,7 +186,7 @@ TEST(StreamLoader, AStreamThatIsCutShowsWhatIsThereAndSaysWhy) {
   const DecodedStream plain = decode_stream(stream);
   stream.resize(static_cast<std::size_t>(plain.index[2].offset) + 300);
   const TemporaryFile file(stream);
-  StreamLoader loader(cli::open_stream_input(file.path()));
+  StreamLoader loader(player::open_stream_input(file.path()));
   for (std::uint64_t f = 0; f < 5; ++f) expect_frame(loader, plain.frames[f]);
   ASSERT_TRUE(eventually([&] { return loader.supply().failed; }));
   EXPECT_THAT(loader.snapshot().message, HasSubstr(file.path()));
@@ -200,19 +200,19 @@ TEST(StreamLoader, AStreamThatIsCutShowsWhatIsThereAndSaysWhy) {
 
 TEST(StreamLoader, WhatIsNoStreamFailsWithItsName) {
   const TemporaryFile file(Stream(1000, 'x'));
-  StreamLoader loader(cli::open_stream_input(file.path()));
+  StreamLoader loader(player::open_stream_input(file.path()));
   ASSERT_TRUE(eventually([&] { return loader.supply().failed; }));
   EXPECT_THAT(loader.snapshot().message, HasSubstr(file.path()));
   EXPECT_THAT(loader.snapshot().message, HasSubstr("not a TVG stream"));
-  EXPECT_THROW(cli::open_stream_input("/no/such/file.tvg"), cli::ToolError);
-  EXPECT_THROW(cli::open_stream_input("/"), cli::ToolError);
+  EXPECT_THROW(player::open_stream_input("/no/such/file.tvg"), cli::ToolError);
+  EXPECT_THROW(player::open_stream_input("/"), cli::ToolError);
 }
 
 TEST(StreamLoader, APipeThatIsSilentDoesNotHoldUpTheEnd) {
   int ends[2] = {};
   ASSERT_EQ(::pipe(ends), 0);
   {
-    StreamLoader loader(std::make_unique<cli::PipeInput>("a pipe", ends[0]));
+    StreamLoader loader(std::make_unique<player::PipeInput>("a pipe", ends[0]));
     EXPECT_EQ(loader.show(0), nullptr);
     loader.seek(5);
   }
@@ -220,7 +220,7 @@ TEST(StreamLoader, APipeThatIsSilentDoesNotHoldUpTheEnd) {
 }
 
 /// A stream whose reading finds no memory from the given byte on.
-class ScarceInput final : public cli::PipeInput {
+class ScarceInput final : public player::PipeInput {
  public:
   ScarceInput(int descriptor, std::uint64_t enough) : PipeInput("scarce", descriptor), enough_(enough) {}
   Result<std::size_t> read(std::uint64_t offset, std::span<std::uint8_t> target) override {
@@ -245,18 +245,18 @@ TEST(StreamLoader, AnAllocationThatFailsIsAMessageAndWhatIsDecodedCanBeShown) {
 }
 
 TEST(FramePool, TellsWhenAFrameIsLetGoAlsoAfterThePoolHasGone) {
-  const auto bell = std::make_shared<cli::Bell>();
-  std::shared_ptr<cli::PlayerFrame> kept;
+  const auto bell = std::make_shared<player::Bell>();
+  std::shared_ptr<player::PlayerFrame> kept;
   {
-    cli::FramePool pool(bell);
+    player::FramePool pool(bell);
     pool.set_limit(2);
-    std::shared_ptr<cli::PlayerFrame> first = pool.take();
+    std::shared_ptr<player::PlayerFrame> first = pool.take();
     kept = pool.take();
     ASSERT_TRUE(first && kept);
     EXPECT_FALSE(pool.has_free());
     EXPECT_EQ(pool.take(), nullptr);
-    const cli::PlayerFrame* const used = first.get();
-    std::shared_ptr<const cli::PlayerFrame> shown = std::move(first);
+    const player::PlayerFrame* const used = first.get();
+    std::shared_ptr<const player::PlayerFrame> shown = std::move(first);
     const std::uint32_t before = bell->strokes();
     std::thread([&] { shown.reset(); }).join();
     EXPECT_EQ(bell->strokes(), before + 1);
@@ -290,11 +290,11 @@ TEST(PipeInput, GoesBackAsFarAsItKeepsBytes) {
 }
 
 /// Gives each vertex the number of its frame.
-class NumberDecorator final : public cli::FrameDecorator {
+class NumberDecorator final : public player::FrameDecorator {
  public:
   explicit NumberDecorator(float sign) : sign_(sign) {}
-  void on_gop(const Mesh& mesh, const cli::PlayerGop&) override { vertices_ = mesh.vertex_count; }
-  void on_frame(cli::PlayerFrame& frame) override {
+  void on_gop(const Mesh& mesh, const player::PlayerGop&) override { vertices_ = mesh.vertex_count; }
+  void on_frame(player::PlayerFrame& frame) override {
     frame.values.assign(vertices_, sign_ * static_cast<float>(frame.number));
   }
 
@@ -305,7 +305,7 @@ class NumberDecorator final : public cli::FrameDecorator {
 
 TEST(StreamLoader, ADecoratorFillsValuesOfEveryFrameFromTheOneShownOn) {
   const TemporaryFile file(encoded("toy", 5));
-  StreamLoader loader(cli::open_stream_input(file.path()));
+  StreamLoader loader(player::open_stream_input(file.path()));
   EXPECT_TRUE(await_frame(loader, 3)->values.empty());
   for (const float sign : {1.0f, -1.0f}) {
     loader.set_decorator(std::make_shared<NumberDecorator>(sign), 3);
@@ -320,13 +320,13 @@ TEST(StreamLoader, ADecoratorFillsValuesOfEveryFrameFromTheOneShownOn) {
 }
 
 TEST(FramesOfBytes, CountsWhatReachesFromAGopsStart) {
-  const std::vector<cli::GopMark> marks = {{0, 10, 100, 50}, {10, 10, 150, 50}, {20, 10, 200, 100}};
-  using Runs = std::vector<cli::FrameRun>;
-  EXPECT_EQ(cli::frames_of_bytes(marks, {{0, 300}}), (Runs{{0, 30}}));
-  EXPECT_EQ(cli::frames_of_bytes(marks, {{0, 175}}), (Runs{{0, 15}}));
-  EXPECT_EQ(cli::frames_of_bytes(marks, {{0, 120}, {150, 30}, {201, 99}}), (Runs{{0, 4}, {10, 6}}));
-  EXPECT_EQ(cli::frames_of_bytes(marks, {}), Runs{});
-  EXPECT_EQ(cli::frames_of_bytes({}, {{0, 300}}), Runs{});
+  const std::vector<player::GopMark> marks = {{0, 10, 100, 50}, {10, 10, 150, 50}, {20, 10, 200, 100}};
+  using Runs = std::vector<player::FrameRun>;
+  EXPECT_EQ(player::frames_of_bytes(marks, {{0, 300}}), (Runs{{0, 30}}));
+  EXPECT_EQ(player::frames_of_bytes(marks, {{0, 175}}), (Runs{{0, 15}}));
+  EXPECT_EQ(player::frames_of_bytes(marks, {{0, 120}, {150, 30}, {201, 99}}), (Runs{{0, 4}, {10, 6}}));
+  EXPECT_EQ(player::frames_of_bytes(marks, {}), Runs{});
+  EXPECT_EQ(player::frames_of_bytes({}, {{0, 300}}), Runs{});
 }
 
 }  // namespace

@@ -31,12 +31,40 @@ TEST(LatticeOverBox, AStepAsksForAsManyBitsAsItsBoxNeeds) {
     EXPECT_EQ(lattice->coarse_bits, lattice->fine_bits);
     return lattice->fine_bits;
   };
-  EXPECT_EQ(bits(10, 0.5), 5) << "20 cells";
-  EXPECT_EQ(bits(10, 1.25), 3) << "8 cells fit 3 bits exactly";
-  EXPECT_EQ(bits(10, 1.2), 4);
-  EXPECT_EQ(bits(10, 6), 1);
+  EXPECT_EQ(bits(10, 0.5), 5) << "21 cells";
+  EXPECT_EQ(bits(10, 1.25), 4) << "from 2.5 on, 8 cells and the one that begins at 12.5";
+  EXPECT_EQ(bits(7, 1.25), 3) << "from 2.5 on, 6 cells";
+  EXPECT_EQ(bits(10, 6), 2) << "from 0 on, 3 cells";
   EXPECT_EQ(bits(10, 1000), 1) << "one bit at least";
-  EXPECT_EQ(bits(16, std::ldexp(1.0, -20)), 24);
+  EXPECT_EQ(bits(15.75, std::ldexp(1.0, -20)), 24);
+}
+
+TEST(LatticeOverBox, AStepsCoarseCellsBeginAtMultiplesOfTheirEdge) {
+  BoundingBox box;
+  box.extend(-0.3, 0.9, 4);
+  box.extend(2, 2, 5);
+  const Result<Lattice> lattice = lattice_over(box, 13, 11, 0.25);
+  ASSERT_TRUE(lattice);
+  EXPECT_EQ(lattice->origin, (std::array<double, 3>{-1, 0, 4}));
+  EXPECT_EQ(lattice->fine_bits, 4);
+  EXPECT_EQ(lattice->coarse_bits, 2);
+}
+
+TEST(LatticeOverBox, AGridThatBinary64DoesNotHaveBeginsAtTheBox) {
+  BoundingBox huge;
+  huge.extend(-1.7e308, 0, 0);
+  const Result<Lattice> coarse = lattice_over(huge, 1, 1, 1e308);
+  ASSERT_TRUE(coarse);
+  EXPECT_EQ(coarse->origin[0], -1.7e308);
+  for (const double low : {1e9, -1e30}) {
+    BoundingBox box;
+    box.extend(low, low, low);
+    for (const double step : {1e-20, 1e-300}) {
+      const Result<Lattice> lattice = lattice_over(box, 24, 1, step);
+      ASSERT_TRUE(lattice);
+      EXPECT_EQ(lattice->origin[0], low);
+    }
+  }
 }
 
 TEST(LatticeOverBox, AStepKeepsTheDistanceBetweenTheLattices) {

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -27,7 +27,7 @@ class House : public ::testing::Test {
     EXPECT_TRUE(eventually([&] { return begun_ >= number; }));
   }
 
-  TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   test::Stream stream_ = make_live_stream(3);
   std::atomic<std::size_t> begun_{0};
   std::unique_ptr<RunningServer> server_;
@@ -93,4 +93,4 @@ TEST_F(House, IsNotHeldByASlowHead) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -53,7 +53,7 @@ class Files : public ::testing::TestWithParam<const char*> {
     EXPECT_EQ(answer->get_header_value("Content-Length"), std::to_string(end - begin));
   }
 
-  TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   std::string content_;
   std::unique_ptr<Nginx> nginx_;
   std::unique_ptr<RunningServer> own_;
@@ -159,7 +159,8 @@ TEST_P(Files, PlayAndSeekAsFromADisk) {
   const test::Stream stream = make_live_stream(12);
   folder_.write("clip.tvg", std::string(stream.begin(), stream.end()));
   const test::DecodedStream expected = test::decode_stream(stream);
-  StreamLoader loader(open_stream_input("http://127.0.0.1:" + std::to_string(port_) + "/clip.tvg"));
+  player::StreamLoader loader(
+      player::open_stream_input("http://127.0.0.1:" + std::to_string(port_) + "/clip.tvg"));
   for (const std::uint64_t frame : {0u, 1u, 2u, 19u, 20u, 6u, 23u}) {
     if (!loader.heads_for(frame)) loader.seek(frame);
     ASSERT_NO_FATAL_FAILURE(test::expect_frame(loader, expected.frames[frame])) << frame;
@@ -198,7 +199,7 @@ class Folder : public ::testing::Test {
     return client.answer();
   }
 
-  TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   std::unique_ptr<RunningServer> server_;
 };
 
@@ -322,15 +323,15 @@ TEST_F(Folder, WhatIsNoSingleRangeOfBytesGetsTheWhole) {
 }
 
 TEST(ServerStart, ATakenPortAndAMissingFolderAreToolErrors) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer first(folder.path(""));
   ServerOptions options;
   options.folder = folder.path("");
   options.port = first.port();
-  EXPECT_THROW(StreamServer{options}, ToolError);
+  EXPECT_THROW(StreamServer{options}, cli::ToolError);
   options.folder = folder.path("gone");
   options.port = 0;
-  EXPECT_THROW(StreamServer{options}, ToolError);
+  EXPECT_THROW(StreamServer{options}, cli::ToolError);
 }
 
 TEST(Ranges, AreChosenAsTheRfcSays) {
@@ -356,4 +357,4 @@ TEST(Ranges, AreChosenAsTheRfcSays) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

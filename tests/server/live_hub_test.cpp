@@ -2,7 +2,7 @@
 
 #include "server_toolbox.hpp"
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 namespace {
 
 constexpr std::chrono::milliseconds kNow{0};
@@ -110,4 +110,4 @@ TEST(LiveHub, AStreamWithoutAMeshStartsNobody) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 namespace {
 
 using ::testing::HasSubstr;
@@ -45,7 +45,7 @@ class Live : public ::testing::Test {
     return answer ? nlohmann::json::parse(answer->body)["streams"] : nlohmann::json::array();
   }
 
-  TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   RunningServer server_{folder_.path("")};
   test::Stream stream_ = make_live_stream(8);
   std::vector<std::size_t> borders_ = gop_borders(stream_);
@@ -232,7 +232,7 @@ TEST_F(Live, TheListingCountsWhatIsThere) {
 }
 
 TEST(LiveLimits, AChunkAboveTheLimitIs413) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.max_chunk_bytes = 100; });
   const test::Stream stream = make_live_stream(3);
   auto put = server.client().Put("/live/cam", text_of(stream, 0, stream.size()), "model/vnd.tvg");
@@ -242,7 +242,7 @@ TEST(LiveLimits, AChunkAboveTheLimitIs413) {
 }
 
 TEST(LiveLimits, OneStreamMoreThanAllowedIs503) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.max_live_streams = 1; });
   const test::Stream stream = make_live_stream(3);
   const std::string body = text_of(stream, 0, stream.size());
@@ -259,7 +259,7 @@ TEST(LiveLimits, OneStreamMoreThanAllowedIs503) {
 }
 
 TEST(LiveLimits, WithoutLiveNothingIsTaken) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.live = false; });
   auto put = server.client().Put("/live/b", "x", "model/vnd.tvg");
   ASSERT_TRUE(put);
@@ -270,7 +270,7 @@ TEST(LiveLimits, WithoutLiveNothingIsTaken) {
 }
 
 TEST(LiveLimits, OneClientMoreThanAllowedIs503AndTheOthersGoOn) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""), [](ServerOptions& options) { options.max_clients = 2; });
   const test::Stream stream = make_live_stream(3);
   const std::vector<std::size_t> borders = gop_borders(stream);
@@ -299,9 +299,15 @@ TEST(LiveLimits, OneClientMoreThanAllowedIs503AndTheOthersGoOn) {
 }
 
 TEST(LiveLimits, AViewerThatDoesNotReadIsCutOffAndTheOthersLoseNothing) {
-  const TemporaryFolder folder;
-  const RunningServer server(
-      folder.path(""), [](ServerOptions& options) { options.timeout = std::chrono::milliseconds(2000); });
+  const cli::testing::TemporaryFolder folder;
+  constexpr std::size_t kIdle = 8;
+  const std::string idle_address = "127.0.0.2";
+  const std::string request = "GET /live/cam HTTP/1.1\r\nHost: x\r\n\r\n";
+  StoppedClock clock;
+  const RunningServer server(folder.path(""), [&](ServerOptions& options) {
+    options.now = clock;
+    options.max_per_address = kIdle;
+  });
   std::mt19937 random(3);
   const Sequence sequence = test::random_sequence(test::grid(100, 80), 24, random);
   EncodeOptions encode_options;
@@ -311,46 +317,72 @@ TEST(LiveLimits, AViewerThatDoesNotReadIsCutOffAndTheOthersLoseNothing) {
   const std::vector<std::size_t> borders = gop_borders(stream);
   const auto viewers = [&] {
     auto list = server.client().Get("/live/");
-    const nlohmann::json streams = nlohmann::json::parse(list ? list->body : "{}")["streams"];
+    const nlohmann::json streams =
+        list && list->status == 200 ? nlohmann::json::parse(list->body)["streams"] : nlohmann::json::array();
     return streams.empty() ? std::size_t{0} : streams[0]["viewers"].get<std::size_t>();
+  };
+  // Whether so many more can come at a time from where the idle ones are.
+  const auto has_room_for = [&](std::size_t count) {
+    std::deque<RawClient> others;  // who was answered keeps its place
+    for (std::size_t i = 0; i < count; ++i) {
+      others.emplace_back(server.port(), idle_address.c_str()).send("HEAD / HTTP/1.1\r\nHost: x\r\n\r\n");
+      if (!others.back().head().starts_with("HTTP/1.1 200 ")) return false;
+    }
+    return true;
   };
 
   Upload upload(server, "/live/cam");
   upload.send(text_of(stream, 0, borders[1]));
-  ASSERT_TRUE(eventually([&] { return server.client().Head("/live/cam")->status == 200; }));
-  RawClient idle(server.port(), "127.0.0.1", 4096);
-  idle.send("GET /live/cam HTTP/1.1\r\nHost: x\r\n\r\n");
+  ASSERT_TRUE(eventually([&] {
+    auto head = server.client().Head("/live/cam");
+    return head && head->status == 200;
+  }));
+  std::deque<RawClient> idle;
+  for (std::size_t i = 0; i < kIdle; ++i) {
+    idle.emplace_back(server.port(), idle_address.c_str(), 4096).send(request);
+  }
   Viewer reads(server, "/live/cam");
-  ASSERT_TRUE(eventually([&] { return viewers() == 2; }));
-  // As fast as the one that reads takes them, and always sooner than an upload may pause.
-  for (std::size_t gop = 1; gop < 12; ++gop) {
+  ASSERT_TRUE(eventually([&] { return viewers() == kIdle + 1; }));
+  for (std::size_t gop = 1; gop < 12; ++gop) {  // as fast as the one that reads takes them
     upload.send(text_of(stream, borders[gop], borders[gop + 1]));
     ASSERT_TRUE(eventually([&] { return reads.received().size() >= borders[gop + 1]; }));
   }
-  const std::size_t middle = (borders.back() + stream.size()) / 2;
-  for (std::size_t at = borders.back(); viewers() > 1 && at < middle; ++at) {
-    upload.send(text_of(stream, at, at + 1));
-    std::this_thread::sleep_for(std::chrono::milliseconds(40));
-  }
-  EXPECT_EQ(viewers(), 1U);
-  upload.break_off();
+  upload.send(text_of(stream, borders.back(), stream.size()));
+  upload.finish();
+  EXPECT_EQ(upload.status(), 200);
   reads.wait();
+  EXPECT_TRUE(reads.whole());
   EXPECT_EQ(decode_text(reads.received()).frames.size(), 24U);
+
+  EXPECT_FALSE(has_room_for(1)) << "those who do not read hold their places";
+  ASSERT_TRUE(eventually([&] {
+    clock.move_on(ServerOptions().timeout);
+    return has_room_for(kIdle);
+  }));
+  for (RawClient& viewer : idle) {
+    EXPECT_EQ(viewer.answer().find("\r\n0\r\n\r\n"), std::string::npos) << "it was cut off";
+  }
 }
 
 TEST(LiveLimits, AnUploadThatStallsIsCutOffAndFreesItsName) {
-  const TemporaryFolder folder;
-  std::atomic<bool> cut_off{false};
+  const cli::testing::TemporaryFolder folder;
+  std::atomic<bool> begun{false}, cut_off{false};
+  StoppedClock clock;
   const RunningServer server(folder.path(""), [&](ServerOptions& options) {
-    options.timeout = std::chrono::milliseconds(200);
+    options.now = clock;
     options.log = [&](const std::string& line) {
+      if (line.find("begins") != std::string::npos) begun = true;
       if (line.find("idle for too long") != std::string::npos) cut_off = true;
     };
   });
   const test::Stream stream = make_live_stream(3);
   Upload upload(server, "/live/cam");
   upload.send(text_of(stream, 0, 60));
-  EXPECT_TRUE(eventually([&] { return cut_off.load(); }));
+  ASSERT_TRUE(eventually([&] { return begun.load(); }));
+  EXPECT_TRUE(eventually([&] {
+    clock.move_on(ServerOptions().timeout);
+    return cut_off.load();
+  }));
   EXPECT_TRUE(eventually([&] {
     auto list = server.client().Get("/live/");
     return list && list->body.find("\"cam\"") == std::string::npos;
@@ -358,4 +390,4 @@ TEST(LiveLimits, AnUploadThatStallsIsCutOffAndFreesItsName) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

@@ -14,7 +14,7 @@
 #include <thread>
 #include <unistd.h>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 
 inline std::optional<std::string> find_nginx() {
   for (const char* path : {"/usr/sbin/nginx", "/usr/bin/nginx", "/usr/local/sbin/nginx"}) {
@@ -103,10 +103,10 @@ class Nginx {
     pid_ = -1;
   }
 
-  TemporaryFolder own_;
+  cli::testing::TemporaryFolder own_;
   pid_t pid_ = -1;
   int port_ = 0;
   bool running_ = false;
 };
 
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

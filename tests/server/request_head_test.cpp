@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
 namespace {
 
 using ::testing::StartsWith;
@@ -61,7 +61,7 @@ TEST(RequestHead, KeepsEverythingButTheNameOfTheRange) {
 }
 
 TEST(RequestHead, RefusalsReachWhoAsked) {
-  const TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const RunningServer server(folder.path(""));
   const auto status = [&](const std::string& request) {
     RawClient client(server.port());
@@ -78,4 +78,4 @@ TEST(RequestHead, RefusalsReachWhoAsked) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

@@ -6,6 +6,7 @@
 #include <arpa/inet.h>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -19,7 +20,20 @@
 #include <thread>
 #include <unistd.h>
 
-namespace tvg::cli::testing {
+namespace tvg::server::testing {
+
+/// A clock that stands still until a test moves it on: what a time limit does is then no matter of how busy
+/// the machine is. Copies are the same clock.
+class StoppedClock {
+ public:
+  std::chrono::steady_clock::time_point operator()() const {
+    return std::chrono::steady_clock::time_point(std::chrono::milliseconds(time_->load()));
+  }
+  void move_on(std::chrono::milliseconds time) { time_->fetch_add(time.count()); }
+
+ private:
+  std::shared_ptr<std::atomic<std::int64_t>> time_ = std::make_shared<std::atomic<std::int64_t>>(0);
+};
 
 /// A server in this process on a port of its own, and clients for it.
 class RunningServer {
@@ -71,6 +85,12 @@ class RawClient {
   }
   /// Says that it sends nothing more.
   void end() { ::shutdown(socket_, SHUT_WR); }
+  /// The next answer up to its empty line, or to where the server closes.
+  std::string head() {
+    std::string head;
+    for (char c = 0; !head.ends_with("\r\n\r\n") && ::recv(socket_, &c, 1, 0) > 0;) head += c;
+    return head;
+  }
   /// Everything up to where the server closes.
   std::string answer() {
     std::string answer;
@@ -240,4 +260,4 @@ class Viewer {
   std::thread thread_;
 };
 
-}  // namespace tvg::cli::testing
+}  // namespace tvg::server::testing

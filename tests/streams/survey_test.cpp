@@ -11,15 +11,22 @@ struct Surveyed {
   std::size_t bytes_read = 0;
 };
 
-Surveyed survey_stream(const Stream& stream) {
+enum class Size { kKnown, kUnknown };
+
+Surveyed survey_stream(const Stream& stream, Size size_is = Size::kKnown) {
   std::size_t count = 0;
-  Result<StreamSurvey> result = survey([&](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+  const auto read = [&](std::uint64_t offset, std::span<std::uint8_t> bytes) {
+    if (size_is == Size::kUnknown) {
+      EXPECT_EQ(offset, count) << "a pipe has no other bytes";
+    }
     const std::size_t begin = std::min(stream.size(), static_cast<std::size_t>(offset));
     const std::size_t size = std::min(bytes.size(), stream.size() - begin);
     std::copy_n(stream.begin() + static_cast<std::ptrdiff_t>(begin), size, bytes.begin());
     count += size;
     return Result<std::size_t>(size);
-  });
+  };
+  Result<StreamSurvey> result =
+      size_is == Size::kKnown ? survey(read, stream.size()) : survey(read, std::nullopt);
   return {std::move(result), count};
 }
 
@@ -28,9 +35,11 @@ TEST(Survey, SaysWhatDecodingSays) {
     SCOPED_TRACE(entry.name);
     const Stream stream = entry.make();
     const DecodedStream decoded = decode_stream(stream);
-    const Surveyed surveyed = survey_stream(stream);
-    ASSERT_TRUE(surveyed.result);
+    const Surveyed surveyed = survey_stream(stream), piped = survey_stream(stream, Size::kUnknown);
+    ASSERT_TRUE(surveyed.result && piped.result);
     const StreamSurvey& seen = *surveyed.result;
+    EXPECT_EQ(piped.result->frames(), seen.frames());
+    EXPECT_EQ(piped.result->bytes, seen.bytes);
     EXPECT_TRUE(seen.findings.empty());
     EXPECT_EQ(seen.bytes, stream.size());
     EXPECT_EQ(seen.head.limits, decoded.head.limits);
@@ -74,6 +83,22 @@ TEST(Survey, FindsWhatIsOutOfPlaceAndRefusesWhatIsCut) {
   const Surveyed surveyed = survey_stream(stream);
   ASSERT_TRUE(surveyed.result);
   EXPECT_FALSE(surveyed.result->findings.empty());
+}
+
+TEST(Survey, NamesTheByteAtWhichACutStreamEnds) {
+  std::mt19937 random(2);
+  EncodeOptions options;
+  options.gop_frames = 40;
+  const Stream stream = encode_sequence(random_sequence(grid(20, 20), 80, random), options);
+  for (std::size_t size = 1; size < stream.size(); size += 1 + size / 7) {
+    const Stream cut(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size));
+    for (const Size size_is : {Size::kKnown, Size::kUnknown}) {
+      const Surveyed surveyed = survey_stream(cut, size_is);
+      ASSERT_FALSE(surveyed.result);
+      EXPECT_EQ(surveyed.result.error().code, ErrorCode::kTruncated);
+      EXPECT_EQ(surveyed.result.error().byte_offset, size);
+    }
+  }
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 /// Where a point is in the picture: -1 to 1 across and up, and its depth.
@@ -136,12 +136,12 @@ TEST(ParseView, ShowsWhatWouldBeRight) {
     try {
       parse_view(text);
       ADD_FAILURE() << text;
-    } catch (const ToolError& error) {
-      EXPECT_EQ(error.status(), ExitStatus::kUsage);
+    } catch (const cli::ToolError& error) {
+      EXPECT_EQ(error.status(), cli::ExitStatus::kUsage);
       EXPECT_THAT(error.what(), ::testing::HasSubstr("30,15"));
     }
   }
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

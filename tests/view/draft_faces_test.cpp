@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 TEST(DraftFaces, AreFewAndStayWithinTheVertices) {
@@ -40,4 +40,4 @@ TEST(DraftFaces, OfNothingAreNothing) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 void expect_file_or_nothing(const std::string& font) {
@@ -23,4 +23,4 @@ TEST(FindFont, GivesAFileOrNothingWhateverFontconfigIsToldToRead) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 Image gradient(int width, int height) {
@@ -20,17 +20,17 @@ Image gradient(int width, int height) {
   return image;
 }
 
-ExitStatus status_of_reading(const std::string& path) {
+cli::ExitStatus status_of_reading(const std::string& path) {
   try {
     read_png(path);
-  } catch (const ToolError& error) {
+  } catch (const cli::ToolError& error) {
     return error.status();
   }
-  return ExitStatus::kSuccess;
+  return cli::ExitStatus::kSuccess;
 }
 
 TEST(Png, ComesBackAsItWasWritten) {
-  const testing::TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   const Image image = gradient(31, 17);
   write_png(folder.path("a.png"), image);
   const Image back = read_png(folder.path("a.png"));
@@ -40,7 +40,7 @@ TEST(Png, ComesBackAsItWasWritten) {
 }
 
 TEST(Png, OfOneImageIsAlwaysTheSameBytes) {
-  const testing::TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   write_png(folder.path("a.png"), gradient(31, 17));
   write_png(folder.path("b.png"), gradient(31, 17));
   EXPECT_EQ(folder.read("a.png"), folder.read("b.png"));
@@ -48,14 +48,14 @@ TEST(Png, OfOneImageIsAlwaysTheSameBytes) {
 }
 
 TEST(Png, CutAnywhereIsRefusedNotCrashedOn) {
-  const testing::TemporaryFolder folder;
+  const cli::testing::TemporaryFolder folder;
   write_png(folder.path("a.png"), gradient(31, 17));
   const std::string whole = folder.read("a.png");
   for (std::size_t size = 0; size + 16 < whole.size(); ++size) {
     folder.write("cut.png", whole.substr(0, size));
-    EXPECT_EQ(status_of_reading(folder.path("cut.png")), ExitStatus::kInvalidInput) << size;
+    EXPECT_EQ(status_of_reading(folder.path("cut.png")), cli::ExitStatus::kInvalidInput) << size;
   }
-  EXPECT_EQ(status_of_reading(folder.path("none.png")), ExitStatus::kIo);
+  EXPECT_EQ(status_of_reading(folder.path("none.png")), cli::ExitStatus::kIo);
 }
 
 TEST(CompareImages, MeasuresMeanAndShare) {
@@ -71,4 +71,4 @@ TEST(CompareImages, MeasuresMeanAndShare) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

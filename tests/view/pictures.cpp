@@ -1,8 +1,8 @@
 #include "tests/view/pictures.hpp"
 
 #include "corpus/corpus.hpp"
+#include "player/overlay/overlay_values.hpp"
 #include "player/render/sheet.hpp"
-#include "player/view/overlay.hpp"
 #include "tests/view/view_toolbox.hpp"
 
 #include <array>
@@ -10,7 +10,7 @@
 #include <tvg/decoder.hpp>
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli::testing {
+namespace tvg::player::testing {
 
 namespace {
 
@@ -21,7 +21,7 @@ Sequence corpus_sequence(std::string_view name, std::uint32_t vertices) {
 }
 
 Image draw(const Sequence& sequence, const ShownFrame& frame, const Style& style,
-           ColourMap map = ColourMap::kViridis) {
+           cli::ColourMap map = cli::ColourMap::kViridis) {
   PicturePainter painter(kWidth, kHeight, style, false);
   const BoundingBox bounds = bounds_of(sequence);
   painter.set_scene(bounds, UpAxis::kY, camera_for(bounds, static_cast<double>(kWidth) / kHeight));
@@ -71,15 +71,15 @@ Image draw_importance() {
   decoder.copy_positions(frame.positions.data());
   frame.values.resize(flags.size());
   importance_values(flags, frame.values);
-  return draw(hand, frame, {}, ColourMap::kFlags);
+  return draw(hand, frame, {}, cli::ColourMap::kFlags);
 }
 
 Image draw_cost() {
   const Sequence cloth = corpus_sequence("cloth", 2000);
   ShownFrame frame = shown_frame(cloth, kFrames - 1);
-  frame.values = cost_values(cloth.mesh, cloth.frames);
+  frame.values = cost_values(cloth.mesh, {cloth.frames});
   std::vector<float> scratch;
-  scale_values(frame.values, {0, value_at_share(frame.values, 0.95, scratch)});
+  cli::scale_values(frame.values, {0, cli::value_at_share(frame.values, 0.95, scratch)});
   return draw(cloth, frame, {});
 }
 
@@ -93,7 +93,8 @@ Image draw_sheet() {
   painter.begin();
   const std::vector<std::uint64_t> chosen = spread_evenly(kFrames, cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    painter.draw(shown_frame(hand, chosen[i]), PicturePainter::Which::kShown, ColourMap::kViridis, cells[i]);
+    painter.draw(shown_frame(hand, chosen[i]), PicturePainter::Which::kShown, cli::ColourMap::kViridis,
+                 cells[i]);
   }
   return painter.finish();
 }
@@ -133,4 +134,4 @@ Image draw_hand_in_another_colour() {
   return draw(hand, shown_frame(hand, 5), style);
 }
 
-}  // namespace tvg::cli::testing
+}  // namespace tvg::player::testing

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace tvg::cli::testing {
+namespace tvg::player::testing {
 
 /// A picture that is stored beside the tests.
 struct StoredPicture {
@@ -20,4 +20,4 @@ Image draw_hand(std::size_t frame);
 Image draw_hand_without_some_faces();
 Image draw_hand_in_another_colour();
 
-}  // namespace tvg::cli::testing
+}  // namespace tvg::player::testing

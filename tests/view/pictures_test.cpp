@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-namespace tvg::cli::testing {
+namespace tvg::player::testing {
 namespace {
 
 // All are drawn by Mesa's software renderer. Its versions differ in the last bit of a colour and in a few
@@ -35,7 +35,7 @@ class Pictures : public ::testing::Test {
     setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1);
     try {
       const OffscreenContext context;
-    } catch (const ToolError& error) {
+    } catch (const cli::ToolError& error) {
       GTEST_SKIP() << error.what();
     }
   }
@@ -78,4 +78,4 @@ TEST_F(Pictures, DifferFromEachOther) {
 }
 
 }  // namespace
-}  // namespace tvg::cli::testing
+}  // namespace tvg::player::testing

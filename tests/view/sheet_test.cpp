@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 TEST(SpreadEvenly, TakesTheFirstAndTheLast) {
@@ -30,4 +30,4 @@ TEST(SheetCells, FillThePicture) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,20 +1,23 @@
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 
 #include "corpus/corpus.hpp"
 #include "corpus/write_cache.hpp"
 #include "encoder/importers/open_source.hpp"
-#include "player/view/overlay.hpp"
+#include "player/overlay/overlay_values.hpp"
+#include "player/render/whole_gops.hpp"
 #include "tests/importers/io_toolbox.hpp"
 #include "tool/tool_error.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 constexpr std::uint32_t kGop = 5;
+constexpr float kLargest = 0.25F;
 
 /// The same sequence as a stream and as mesh and cache.
 class Shown : public ::testing::Test {
@@ -44,7 +47,7 @@ class Shown : public ::testing::Test {
     ShownFramesSpec spec;
     spec.inputs = {folder_.path("hand.obj"), folder_.path("hand.pc2")};
     spec.open_source = [](const auto& inputs, const auto& frames) {
-      return open_source({inputs, frames}).source;
+      return cli::open_source({inputs, frames}).source;
     };
     return spec;
   }
@@ -55,7 +58,7 @@ class Shown : public ::testing::Test {
     return result;
   }
 
-  testing::TemporaryFolder folder_;
+  cli::testing::TemporaryFolder folder_;
   Sequence hand_;
 };
 
@@ -95,17 +98,23 @@ TEST_F(Shown, CostIsThatOfTheWholeGopWhateverTheRange) {
   spec.whole_gops = true;
   for (const FrameRange range : {FrameRange{0, 11}, FrameRange{7, 7}, FrameRange{3, 6}, FrameRange{10, 11}}) {
     spec.frames = range;
-    const std::vector<ShownFrame> frames = all(*with_cost(open_frames(spec), range));
-    ASSERT_EQ(frames.size(), range.last - range.first + 1);
-    for (const ShownFrame& frame : frames) {
+    const auto colours = make_overlay_colours({Overlay::kCost, kLargest, nullptr});
+    const auto frames = with_whole_gops(open_frames(spec), range, *colours);
+    std::uint64_t number = range.first;
+    for (ShownFrame frame; frames->next(frame); ++number) {
+      EXPECT_EQ(frame.number, number);
       const std::size_t begin = frame.number / kGop * kGop;
       std::vector<FramePositions> gop;
       for (std::size_t f = begin; f < std::min<std::size_t>(begin + kGop, 12); ++f) {
         gop.push_back(plain[f].positions);
       }
       EXPECT_EQ(frame.positions, plain[frame.number].positions);
-      EXPECT_EQ(frame.values, cost_values(hand_.mesh, gop)) << frame.number;
+      colours->colour({frame.number, *frame.mesh, frame.positions, {}}, frame.values);
+      std::vector<float> expected = cost_values(hand_.mesh, {gop});
+      cli::scale_values(expected, {0, kLargest});
+      EXPECT_EQ(frame.values, expected) << frame.number;
     }
+    EXPECT_EQ(number, range.last + 1);
   }
 }
 
@@ -113,12 +122,12 @@ TEST_F(Shown, FlagsAreThoseOfTheGop) {
   ShownFramesSpec spec = stream();
   spec.flags = true;
   for (const ShownFrame& frame : all(*open_frames(spec))) {
-    float flagged = 0;
-    for (const float value : frame.values) flagged += value;
-    EXPECT_NEAR(flagged / static_cast<float>(frame.values.size()), 0.35, 0.01);
+    ASSERT_NE(frame.flags, nullptr);
+    const auto flagged = std::count(frame.flags->begin(), frame.flags->end(), 1);
+    EXPECT_NEAR(static_cast<double>(flagged) / static_cast<double>(frame.flags->size()), 0.35, 0.01);
   }
   spec.inputs = files().inputs;
-  EXPECT_THROW(open_frames(spec), ToolError);
+  EXPECT_THROW(open_frames(spec), cli::ToolError);
 }
 
 TEST_F(Shown, DamageIsAnErrorOrTheLastGoodFrameAgain) {
@@ -126,7 +135,7 @@ TEST_F(Shown, DamageIsAnErrorOrTheLastGoodFrameAgain) {
   std::string bytes = folder_.read("hand.tvg");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x20);
   folder_.write("hand.tvg", bytes);
-  EXPECT_THROW(all(*open_frames(stream())), ToolError);
+  EXPECT_THROW(all(*open_frames(stream())), cli::ToolError);
   ShownFramesSpec spec = stream();
   spec.conceal = true;
   const std::vector<ShownFrame> frames = all(*open_frames(spec));
@@ -144,4 +153,4 @@ TEST_F(Shown, DamageIsAnErrorOrTheLastGoodFrameAgain) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -6,7 +6,7 @@
 
 #include <tvg/source.hpp>
 
-namespace tvg::cli::testing {
+namespace tvg::player::testing {
 
 inline constexpr int kWidth = 256;
 inline constexpr int kHeight = 192;
@@ -33,4 +33,4 @@ inline BoundingBox bounds_of(const Sequence& sequence) {
   return bounds;
 }
 
-}  // namespace tvg::cli::testing
+}  // namespace tvg::player::testing

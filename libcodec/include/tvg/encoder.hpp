@@ -20,8 +20,9 @@ struct EncodeOptions {
   Mode mode = Mode::kElp;
   int fine_bits = 11;    ///< B2, 1 to 24: bits of important vertices
   int coarse_bits = 11;  ///< B1, 1 to B2: bits of the others
-  /// Instead of B2: edge of a fine cell in the mesh's units. B2 is then what the bounding box needs, and B1
-  /// lies below it by fine_bits - coarse_bits.
+  /// Instead of B2: edge of a fine cell in the mesh's units. All cells then lie on one grid, whatever the GOP
+  /// or the stream: coarse cells begin at multiples of their edge, step * 2^(fine_bits - coarse_bits). Each
+  /// GOP's B2 is what its own box needs, and B1 lies below it by fine_bits - coarse_bits.
   std::optional<double> step;
   Importance importance;  ///< of no effect when both lattices are the same
   Predictor predictor = Predictor::kElp;
@@ -32,7 +33,7 @@ struct EncodeOptions {
   Metadata metadata;              ///< encode() adds what the source says
 
   /// What all frames lie in: every GOP then has the same lattice. Absent: each GOP has a box of its own, but
-  /// encode() looks for that of the whole source where it can be read twice.
+  /// encode() looks for that of the whole source where it can be read twice and no step is given.
   std::optional<BoundingBox> box;
   /// Bounds for the meshes to come, which the head declares; what the first mesh has where it has more.
   std::uint32_t max_vertices = 0;
@@ -48,7 +49,7 @@ struct EncodeReport {
   std::uint32_t vertices = 0;  ///< of the first mesh
   std::uint64_t gops = 0;
   std::uint64_t bytes = 0;       ///< of the whole stream
-  bool box_of_each_gop = false;  ///< no box was known beforehand, so each GOP has a lattice of its own
+  bool box_of_each_gop = false;  ///< neither box nor step was given, so each GOP has cells of its own
 };
 
 /// The encoder, pushed: set the mesh, add its frames, finish; the stream goes to a sink.
@@ -59,9 +60,8 @@ struct EncodeReport {
 /// the sink and the progress are only called from within them, and what they throw passes through.
 ///
 /// A call that fails with kWrongState (what comes out of turn), kInvalidArgument or kInvalidInput (what was
-/// given cannot be encoded) or kLimitExceeded for a mesh changes nothing: others may follow, but for a GOP
-/// whose box is too large for `step`, which is found when the GOP is complete (kInvalidArgument). After that
-/// and any other error the stream is lost, and every further call returns that error.
+/// given cannot be encoded) or kLimitExceeded for a mesh changes nothing: others may follow. After any other
+/// error the stream is lost, and every further call returns that error.
 class Encoder {
  public:
   Encoder(EncodeOptions options, ByteSink sink, EncodeProgress progress = {});
@@ -76,8 +76,9 @@ class Encoder {
   Status set_mesh(const Mesh& mesh, const Skeleton& skeleton = {});
 
   /// The next frame: positions [vertex][xyz] and, where the importance uses the skeleton, the joints
-  /// [joint][xyz]. Both are copied. kInvalidArgument for a wrong size; kInvalidInput for what is not finite
-  /// or outside the box of the options.
+  /// [joint][xyz]. Both are copied. kInvalidArgument for a wrong size, and for a frame that makes its GOP's
+  /// box larger than cells of the step of the options can fill; kInvalidInput for what is not finite or
+  /// outside the box of the options.
   Status add_frame(std::span<const float> positions, std::span<const float> joints = {});
 
   /// Ends the stream. kInvalidInput where there was no frame. Nothing may follow.
@@ -88,9 +89,10 @@ class Encoder {
   std::unique_ptr<State> state_;
 };
 
-/// Pushes a sequence through an encoder. A source that can be rewound is read twice, first for the bounding
-/// box of the whole sequence, unless the options have one. Errors: kInvalidArgument for options out of range,
-/// kInvalidInput for geometry that cannot be encoded, and what source and sink return.
+/// Pushes a sequence through an encoder. Where the options have a box or a step, the source is read once,
+/// from where it stands, and not rewound. Otherwise a source that can be rewound is read twice, first for the
+/// bounding box of the whole sequence. Errors: kInvalidArgument for options out of range, kInvalidInput for
+/// geometry that cannot be encoded, and what source and sink return.
 Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                             const EncodeProgress& progress = {});
 

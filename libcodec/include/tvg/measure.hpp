@@ -29,6 +29,25 @@ enum class JointRegion : std::uint8_t {
   kHeaviest,  ///< the one of the largest skin weight, where the skeleton knows it
 };
 
+/// Of curv and curvature-norm.
+struct CurvatureOptions {
+  double alpha = 0.5;  ///< Eq. 3: weight of the change against the mean, 0 to 1
+};
+
+/// Of skel.
+struct SkeletonOptions {
+  double alpha = 1;  ///< Eq. 6: the value of vertices at dynamic joints, 0 to 1; others have 1 - alpha
+  /// A joint is dynamic when its sum of angle changes is above this many degrees per frame. Where absent:
+  /// above a quarter of the strongest joint's sum, and above 0.1 degrees per frame.
+  std::optional<double> threshold;
+  JointRegion region = JointRegion::kNearest;
+};
+
+/// Of distance.
+struct DistanceOptions {
+  std::array<double, 3> viewpoint = {};  ///< [xyz] in the mesh's units
+};
+
 constexpr std::uint32_t kMaxSmoothing = 1000;
 
 /// What makes vertices important (Algorithm 1).
@@ -42,15 +61,11 @@ struct Importance {
   /// scattered ones.
   std::uint32_t smoothing = 0;
 
-  double alpha = 0.5;  ///< of curv, curvature-norm (Eq. 3): weight of the change against the mean, 0 to 1
-  /// Of skel (Eq. 6): the value of vertices at dynamic joints, 0 to 1; others have 1 - skel_alpha.
-  double skel_alpha = 1;
-  /// Of skel: a joint is dynamic when its sum of angle changes is above this many degrees per frame. Where
-  /// absent: above a quarter of the strongest joint's sum, and above 0.1 degrees per frame (measure: skel).
-  std::optional<double> skel_threshold;
-  JointRegion skel_region = JointRegion::kNearest;
-  std::array<double, 3> viewpoint = {};  ///< of distance: [xyz] in the mesh's units
-  std::vector<double> weights;           ///< of weights: the values themselves, [vertex], finite
+  // What single criteria are told, under their names.
+  CurvatureOptions curv;  ///< of curv and curvature-norm
+  SkeletonOptions skel;
+  DistanceOptions distance;
+  std::vector<double> weights;  ///< of weights: the values themselves, [vertex], finite
 
   /// Mark a GOP by the frames of the GOP before it, the first by its own first frame: nothing has to wait for
   /// frames that are still to come.

@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <tvg/skeleton.hpp>
@@ -19,7 +19,8 @@ struct Sequence {
   Metadata metadata;
 };
 
-/// A source of frames that is read front to back, so that no one has to hold a whole sequence in memory.
+/// A source of frames that is read front to back, so that no one has to hold a whole sequence in memory. What
+/// needs to see everything twice, rewinds it where it can and does without where it cannot.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -37,8 +38,28 @@ class FrameSource {
   /// Reads the next frame into `positions` ([vertex][xyz], exactly 3 * vertex_count floats).
   /// Returns false at the end of the sequence; an error when the input is broken.
   virtual Result<bool> read_frame(std::span<float> positions) = 0;
+  /// Passes over `count` frames, which are within the sequence: reads them, where there is no shorter way.
+  virtual Status skip_frames(std::uint64_t count);
   /// Goes back to the first frame. Returns false where the input can be read only once (a pipe).
   virtual bool rewind() = 0;
+};
+
+/// A source that is another one, but for what a class derived from it overrides.
+class SourceDecorator : public FrameSource {
+ public:
+  explicit SourceDecorator(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+
+  const Mesh& mesh() const override { return source_->mesh(); }
+  Metadata metadata() const override { return source_->metadata(); }
+  const Skeleton& skeleton() const override { return source_->skeleton(); }
+  std::span<const float> joint_positions() const override { return source_->joint_positions(); }
+  std::optional<std::uint64_t> frame_count() const override { return source_->frame_count(); }
+  Result<bool> read_frame(std::span<float> positions) override { return source_->read_frame(positions); }
+  Status skip_frames(std::uint64_t count) override { return source_->skip_frames(count); }
+  bool rewind() override { return source_->rewind(); }
+
+ private:
+  std::unique_ptr<FrameSource> source_;
 };
 
 /// A FrameSource over frames in memory; the sequence and the joints, if any, must outlive it. Frames of

@@ -32,13 +32,14 @@ struct StreamSurvey {
 };
 
 /// Reads bytes of a stream from `offset` on into the span: how many there were, 0 only at the end. Offsets
-/// ascend; those between need not be read.
+/// ascend; those between need not be read, and there are none between where the stream's size is not known.
 using StreamBytes = std::function<Result<std::size_t>(std::uint64_t offset, std::span<std::uint8_t> bytes)>;
 
 /// Goes over a stream by its chunk headers: reads heads, metadata, meshes and index whole, of GOPs the header
-/// packet, and passes over what is left. Errors are those of `read` and those that make a stream unreadable:
-/// kNotTvg, kUnsupportedVersion, kTruncated, kMalformed, kLimitExceeded, kOutOfMemory; what can be read on
-/// behind is a finding.
-Result<StreamSurvey> survey(const StreamBytes& read, const DecoderLimits& limits = {});
+/// packet, and passes over what is left, unread where `size`, the bytes of the stream, is known. Errors are
+/// those of `read` and those that make a stream unreadable: kNotTvg, kUnsupportedVersion, kTruncated,
+/// kMalformed, kLimitExceeded, kOutOfMemory; what can be read on behind is a finding.
+Result<StreamSurvey> survey(const StreamBytes& read, std::optional<std::uint64_t> size = {},
+                            const DecoderLimits& limits = {});
 
 }  // namespace tvg

@@ -266,7 +266,8 @@ typedef struct tvg_encoder_options {
   uint32_t fine_bits;     /* of important vertices, 1 to 24; 11 unless set */
   uint32_t coarse_bits;   /* of the others, 1 to fine_bits; 11 unless set: all vertices alike */
   double step;            /* instead of bits, the edge of a fine cell in the mesh's units; 0 unless set: bits.
-                             fine_bits - coarse_bits is how much coarser the others' cells are */
+                             fine_bits - coarse_bits is how much coarser the others' cells are. All GOPs'
+                             cells lie on one grid, which begins at 0 */
   double important_share; /* of the vertices, by curvature, 0 to 1; 0.35 unless set */
   uint32_t predictor;     /* a tvg_predictor; TVG_PREDICTOR_ELP unless set */
   uint32_t gop_frames;    /* frames that can be decoded on their own, 1 to 65536; 50 unless set */

@@ -48,6 +48,7 @@ struct Error {
   std::optional<std::uint64_t> byte_offset = {};  ///< where in the stream, counted from its first byte
   std::optional<std::uint64_t> frame = {};        ///< the first frame concerned, counted from 0
   const char* section = "";  ///< section of format-spec/tvg.md that the bytes break, or ""
+  bool names_file = false;   ///< the message names the file at fault, as that of a source of many files does
 
   /// The message with code, offset, frame and section appended, on one line.
   std::string describe() const;

@@ -1,10 +1,10 @@
-#include "player/render/shown_frames.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -19,7 +19,8 @@ class SourceFrames final : public ShownFrames {
     if (cut) begin_ = spec.frames->first;
     number_ = begin_;
     if (!spec.frames || cut) return;
-    if (source_->frame_count()) check_frame_range(*spec.frames, *source_->frame_count(), spec.inputs.back());
+    if (source_->frame_count())
+      cli::check_frame_range(*spec.frames, *source_->frame_count(), spec.inputs.back());
     first_ = spec.frames->first - spec.frames->first % kGopFrames;
     last_ = spec.frames->last - spec.frames->last % kGopFrames + kGopFrames - 1;
   }
@@ -29,12 +30,15 @@ class SourceFrames final : public ShownFrames {
     do {
       if (number_ > last_) return false;
       const Result<bool> read = source_->read_frame(frame.positions);
-      if (!read) throw tool_error(read.error());
+      if (!read) throw cli::tool_error(read.error());
       if (!*read) return false;
     } while (number_++ < first_);
     frame.mesh = mesh_;
     frame.number = number_ - 1;
     frame.gop = frame.number / kGopFrames;
+    frame.flags.reset();
+    const std::span<const float> joints = source_->joint_positions();
+    frame.joints.assign(joints.begin(), joints.end());
     frame.values.clear();
     return true;
   }
@@ -49,6 +53,7 @@ class SourceFrames final : public ShownFrames {
     const std::optional<std::uint64_t> frames = source_->frame_count();
     return frames ? std::optional(begin_ + *frames) : std::nullopt;
   }
+  const Skeleton& skeleton() const override { return source_->skeleton(); }
   Metadata metadata() const override { return source_->metadata(); }
 
  private:
@@ -68,4 +73,4 @@ std::unique_ptr<ShownFrames> open_source_frames(const ShownFramesSpec& spec) {
   return std::make_unique<SourceFrames>(spec);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player

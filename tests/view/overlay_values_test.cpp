@@ -1,4 +1,4 @@
-#include "player/view/overlay.hpp"
+#include "player/overlay/overlay_values.hpp"
 
 #include "corpus/corpus.hpp"
 
@@ -8,7 +8,7 @@
 #include <tvg/decoder.hpp>
 #include <tvg/encoder.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 namespace {
 
 TEST(CostOverlay, RanksVerticesAsTheEncoderDoes) {
@@ -28,7 +28,7 @@ TEST(CostOverlay, RanksVerticesAsTheEncoderDoes) {
   std::vector<std::uint8_t> flags(hand.mesh.vertex_count);
   decoder.copy_flags(flags);
 
-  const std::vector<float> costs = cost_values(hand.mesh, hand.frames);
+  const std::vector<float> costs = cost_values(hand.mesh, {hand.frames});
   float least_important = std::numeric_limits<float>::infinity();
   float most_plain = 0;
   for (std::size_t v = 0; v < flags.size(); ++v) {
@@ -56,4 +56,4 @@ TEST(ImportanceOverlay, IsOneForFlaggedVertices) {
 }
 
 }  // namespace
-}  // namespace tvg::cli
+}  // namespace tvg::player

@@ -1,20 +1,24 @@
-#include "player/view/overlay.hpp"
+#include "player/overlay/overlay_values.hpp"
+
+#include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <tvg/measure.hpp>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 void importance_values(std::span<const std::uint8_t> flags, std::span<float> values) {
   std::transform(flags.begin(), flags.end(), values.begin(),
                  [](std::uint8_t flag) { return flag != 0 ? 1.0F : 0.0F; });
 }
 
-std::vector<float> cost_values(const Mesh& mesh, std::span<const FramePositions> frames) {
-  const Result<Measure> measured = measure(mesh, frames, {}, {}, Importance());
-  if (!measured) return std::vector<float>(mesh.vertex_count, 0.0F);  // there are no frames
+std::vector<float> cost_values(const Mesh& mesh, const MeasuredFrames& frames, const Importance& importance) {
+  static const Skeleton none;
+  const Skeleton& skeleton = frames.skeleton != nullptr ? *frames.skeleton : none;
+  const Result<Measure> measured = measure(mesh, frames.positions, skeleton, frames.joints, importance);
+  if (!measured) throw cli::tool_error("--overlay cost", measured.error());
   return {measured->cost.begin(), measured->cost.end()};
 }
 
@@ -27,4 +31,9 @@ void error_values(std::span<const float> frame, std::span<const float> reference
   }
 }
 
-}  // namespace tvg::cli
+std::string short_units(const Metadata& metadata) {
+  const auto units = metadata.find("units");
+  return units != metadata.end() && units->second.size() <= 12 ? units->second : "";
+}
+
+}  // namespace tvg::player

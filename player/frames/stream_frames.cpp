@@ -1,5 +1,4 @@
-#include "player/render/shown_frames.hpp"
-#include "player/view/overlay.hpp"
+#include "player/frames/shown_frames.hpp"
 #include "tool/concealment.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
@@ -8,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tvg::cli {
+namespace tvg::player {
 
 namespace {
 
@@ -46,11 +45,12 @@ class StreamFrames final : public ShownFrames {
 
   std::optional<std::uint64_t> total() const override { return total_; }
   bool keeps_vertex_order() const override { return reader_->decoder().mesh_info().keeps_vertex_order; }
+  const Skeleton& skeleton() const override { return spec_.joints ? spec_.joints->skeleton : none_; }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
 
  private:
   void open() {
-    reader_ = std::make_unique<StreamReader>(spec_.inputs.front());
+    reader_ = std::make_unique<cli::StreamReader>(spec_.inputs.front());
     loaded_ = ended_ = false;
     held_ = {};
     mesh_.reset();
@@ -58,10 +58,11 @@ class StreamFrames final : public ShownFrames {
     const auto index = reader_->read_index();
     if (index) {
       total_ = index->frame_count();
-      if (spec_.frames) check_frame_range(*spec_.frames, *total_, reader_->name());
+      if (spec_.frames) cli::check_frame_range(*spec_.frames, *total_, reader_->name());
     }
     while (!mesh_ && !ended_) pull();
-    if (!mesh_) throw ToolError(ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
+    if (!mesh_)
+      throw cli::ToolError(cli::ExitStatus::kInvalidInput, reader_->name() + ": the stream has no mesh");
     if (!spec_.frames) return;
     number_ = spec_.frames->first;
     if (number_ == 0 || !index) return;
@@ -91,7 +92,7 @@ class StreamFrames final : public ShownFrames {
         mesh_ = std::make_shared<const Mesh>(decoder.mesh());
         break;
       case Decoder::Event::kGop:
-        begin_gop(decoder.gop());
+        begin_gop(decoder);
         break;
       case Decoder::Event::kFrame:
         load(decoder);
@@ -100,7 +101,7 @@ class StreamFrames final : public ShownFrames {
         lose(decoder.damage());
         break;
       case Decoder::Event::kError:
-        if (!spec_.conceal || !held_.mesh) throw tool_error(reader_->name(), decoder.error());
+        if (!spec_.conceal || !held_.mesh) throw cli::tool_error(reader_->name(), decoder.error());
         concealment_.tell(decoder.error());
         ended_ = true;
         break;
@@ -112,10 +113,15 @@ class StreamFrames final : public ShownFrames {
     }
   }
 
-  void begin_gop(const GopInfo& gop) {
+  void begin_gop(const Decoder& decoder) {
+    const GopInfo& gop = decoder.gop();
     ++gop_;
     gop_end_ = gop.first_frame + gop.frame_count - 1;
     if (spec_.whole_gops && number_ > gop.first_frame && number_ <= gop_end_) number_ = gop.first_frame;
+    if (!spec_.flags) return;
+    std::vector<std::uint8_t> flags(mesh_->vertex_count);
+    decoder.copy_flags(flags);
+    flags_ = std::make_shared<const std::vector<std::uint8_t>>(std::move(flags));
   }
 
   void load(const Decoder& decoder) {
@@ -125,11 +131,8 @@ class StreamFrames final : public ShownFrames {
     loaded_frame_.mesh = mesh_;
     loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
     decoder.copy_positions(loaded_frame_.positions.data());
-    if (!spec_.flags) return;
-    flags_.resize(mesh_->vertex_count);
-    decoder.copy_flags(flags_);
-    loaded_frame_.values.resize(flags_.size());
-    importance_values(flags_, loaded_frame_.values);
+    loaded_frame_.flags = flags_;
+    if (spec_.joints) loaded_frame_.joints = joints_at(*spec_.joints, loaded_frame_.number, reader_->name());
   }
 
   void lose(const Damage& damage) {
@@ -137,18 +140,19 @@ class StreamFrames final : public ShownFrames {
     std::optional<FrameRange> wanted = spec_.frames;
     if (wanted && number_ > wanted->last) return;
     if (wanted) wanted->first = number_;
-    const std::optional<HeldFrames> lost = concealment_.hold(damage, wanted);
+    const std::optional<cli::HeldFrames> lost = concealment_.hold(damage, wanted);
     if (lost) lost_end_ = std::max(lost_end_, lost->end);
   }
 
   ShownFramesSpec spec_;
-  Concealment concealment_;
-  std::unique_ptr<StreamReader> reader_;
+  const Skeleton none_;
+  cli::Concealment concealment_;
+  std::unique_ptr<cli::StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
   std::optional<std::uint64_t> total_;
-  std::vector<std::uint8_t> flags_;
-  ShownFrame loaded_frame_;  // the newest that the decoder gave
-  ShownFrame held_;          // the last good one given out
+  std::shared_ptr<const std::vector<std::uint8_t>> flags_;  // of the present GOP
+  ShownFrame loaded_frame_;                                 // the newest that the decoder gave
+  ShownFrame held_;                                         // the last good one given out
   bool loaded_ = false;
   bool ended_ = false;
   std::uint64_t number_ = 0;    // of the next frame to give out
@@ -163,4 +167,4 @@ std::unique_ptr<ShownFrames> open_stream_frames(const ShownFramesSpec& spec) {
   return std::make_unique<StreamFrames>(spec);
 }
 
-}  // namespace tvg::cli
+}  // namespace tvg::player
