@@ -8,54 +8,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <vector>
 
-// How a reference shape's residual is coded (format-spec §5.3): as bits, each under the logistic mixture of
-// estimates from several contexts.
+// How a reference shape's residual is coded (format-spec §5.3): a 16-symbol alphabet under the mean of two
+// adaptive models, which begin with the distribution that the expected size lets expect.
 namespace tvg {
 
-/// Log odds that a probability of 12 bits may have, in 1/256, either sign.
-inline constexpr int kMostLogOdds = 2047;
-
-/// The logistic function: the probability, in [1, 4095], for log odds in [-kMostLogOdds, kMostLogOdds].
-constexpr int squash(int log_odds) {
-  // 4096 / (1 + exp(-x / 2)) for x from -16 to 16, within [1, 4095].
-  constexpr std::array<int, 33> kCurve = {1,    2,    4,    6,    10,   17,   28,   45,   74,   120,  194,
-                                          311,  488,  747,  1102, 1546, 2048, 2550, 2994, 3349, 3608, 3785,
-                                          3902, 3976, 4022, 4051, 4068, 4079, 4086, 4090, 4092, 4094, 4095};
-  const int place = log_odds + 2048, part = place & 127;
-  const auto below = static_cast<std::size_t>(place >> 7);
-  return (kCurve[below] * (128 - part) + kCurve[below + 1] * part + 64) >> 7;
-}
-
-/// Its inverse, [probability]: the smallest log odds whose probability is not below it.
-inline constexpr std::array<std::int16_t, 4096> kLogOdds = [] {
-  std::array<std::int16_t, 4096> stretched{};
-  int log_odds = -kMostLogOdds;
-  for (int p = 0; p < 4096; ++p) {
-    while (log_odds < kMostLogOdds && squash(log_odds) < p) ++log_odds;
-    stretched[static_cast<std::size_t>(p)] = static_cast<std::int16_t>(log_odds);
-  }
-  return stretched;
-}();
-
-/// What is known about a residual before it is coded: where its estimates stand.
+/// What is known about a residual before it is coded.
 struct ShapeChoice {
-  static constexpr std::size_t kContexts = 5;
-
-  std::array<std::uint32_t, kContexts> contexts;  ///< [estimate], below kSizes
-  std::uint32_t level;                            ///< below kLevels: expected size
-  int raw_bits;                                   ///< low bits that go without a model
-  bool mirrored;                                  ///< the residual's sign is turned round
+  std::uint32_t level;   ///< 0 to ShapeModels::kLevels - 1: its expected size
+  std::uint32_t lost;    ///< 0 to 2: how much rounding took from the prediction
+  std::uint32_t kind;    ///< 0 to 3: the number of parallelograms, up to 3
+  std::uint32_t around;  ///< 0 to 15: sizes at the neighbours
+  int raw_bits;          ///< low bits that go without these models
+  bool mirrored;         ///< the residual's sign is turned round
 };
 
 class ShapeModels {
  public:
-  static constexpr std::uint32_t kLevels = 32;
-  static constexpr std::array<std::uint32_t, ShapeChoice::kContexts> kSizes = {192, 64, 48, 12, 192};
+  static constexpr std::size_t kLevels = 22;
 
   ShapeModels() {
-    for (auto& weights : weights_) weights.fill(kFirstWeight);
+    for (std::size_t i = 0; i < first_.size(); ++i) first_[i] = model_of(i / 3 % kLevels);
+    for (std::size_t i = 0; i < second_.size(); ++i) {
+      const std::size_t around = i % 16, alone = i < 16 ? 5 : 0;
+      second_[i] = model_of(std::min(2 * around + 10 + alone, kLevels - 1));
+    }
   }
 
   /// Codes one residual and returns it; a decoder ignores the argument. What a damaged stream yields is
@@ -63,95 +40,80 @@ class ShapeModels {
   template <class Coder>
   std::int32_t code(Coder& coder, const ShapeChoice& choice, std::int32_t residual) {
     const std::int32_t turned = choice.mirrored ? -residual : residual;
-    const std::int32_t high = code_high(coder, choice, turned >> choice.raw_bits);
-    const std::uint32_t mask = (1u << choice.raw_bits) - 1;
-    const std::uint32_t low = code_bits(coder, static_cast<std::uint32_t>(turned) & mask, choice.raw_bits);
-    const std::int64_t value = high * (std::int64_t{1} << choice.raw_bits) + low;
-    const auto bounded = static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -kBound, kBound));
-    return choice.mirrored ? -bounded : bounded;
+    const std::int32_t wanted = turned >> choice.raw_bits;
+    const bool scaled = choice.raw_bits > 0, fits = wanted >= -kLargest && wanted <= kLargest;
+    const std::uint32_t symbol = coder.code(first_[((scaled ? kLevels : 0) + choice.level) * 3 + choice.lost],
+                                            second_[choice.kind * 16 + choice.around],
+                                            fits ? static_cast<std::uint32_t>(wanted + kLargest) : kEscape);
+    std::int32_t value = static_cast<std::int32_t>(symbol) - kLargest;
+    if (symbol == kEscape) value = code_escaped(coder, escape_length_[scaled ? 1 : 0], wanted);
+    if (scaled) value = code_low(coder, value, choice.raw_bits, turned);
+    return choice.mirrored ? -value : value;
   }
 
  private:
+  static constexpr std::int32_t kLargest = 7;  ///< symbols 0 to 14 are -7 to 7, symbol 15 is the escape
+  static constexpr std::uint32_t kEscape = 15;
   static constexpr std::int32_t kBound = 1 << 27;
-  static constexpr std::uint32_t kSteps = 20;         ///< sizes 1 to kSteps are told apart one by one
-  static constexpr std::size_t kBins = 2 + kSteps;    ///< not zero, positive, above 1, above 2, ...
-  static constexpr std::int32_t kFirstWeight = 4915;  ///< 0.3
-  static constexpr std::int32_t kMostWeight = 1 << 16;
-  static constexpr int kLimit = 250;
 
-  struct Estimate {
-    std::uint16_t one = 1 << 15;  ///< probability of a one
-    std::uint16_t count = 0;
-  };
-  using Weights = std::array<std::int32_t, ShapeChoice::kContexts>;
+  using Lengths = std::array<AdaptiveBit, 26>;
 
-  template <class Coder>
-  std::int32_t code_high(Coder& coder, const ShapeChoice& choice, std::int32_t wanted) {
-    if (!code_bin(coder, choice, 0, wanted != 0)) return 0;
-    const bool positive = code_bin(coder, choice, 1, wanted > 0);
-    const auto size = static_cast<std::uint32_t>(std::abs(wanted));
-    std::uint32_t coded = 1;
-    while (coded <= kSteps && code_bin(coder, choice, coded + 1, size > coded)) ++coded;
-    if (coded > kSteps) coded = code_escaped(coder, size);
-    const auto value = static_cast<std::int32_t>(coded);
-    return positive ? value : -value;
-  }
+  /// [level]: how much less likely each size is than the one before, in 1/32768, where the mean is in the
+  /// middle of the level: 5/256 2^((level + 1/2) / 3).
+  static constexpr std::array<std::uint16_t, kLevels> kFall = {
+      359,  452,  570,  718,  904,   1139,  1434,  1805,  2270,  2852,  3577,
+      4476, 5580, 6918, 8508, 10348, 12406, 14616, 16885, 19111, 21207, 23109};
 
-  template <class Coder>
-  bool code_bin(Coder& coder, const ShapeChoice& choice, std::size_t bin, bool bit) {
-    std::array<Estimate*, ShapeChoice::kContexts> estimates;
-    std::array<int, ShapeChoice::kContexts> odds;
-    Weights& weights = weights_[bin * kLevels / 4 + choice.level / 4];
-    std::int32_t sum = 0;
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < ShapeChoice::kContexts; ++i) {
-      estimates[i] = &estimates_[(begin + choice.contexts[i]) * kBins + bin];
-      begin += kSizes[i];
-      odds[i] = kLogOdds[estimates[i]->one >> 4];
-      sum += weights[i] * odds[i];
+  /// Two-sided geometric; the sizes that the alphabet does not reach are the escape's.
+  static AdaptiveSymbol model_of(std::size_t level) {
+    const std::uint64_t fall = kFall[level];
+    std::array<std::uint64_t, kEscape + 1> share{};
+    std::uint64_t size = 1 << 20, sum = 0;
+    for (std::size_t i = 0; i <= kLargest; ++i) {
+      share[kLargest + i] = share[kLargest - i] = size;
+      size = size * fall >> 15;
     }
-    const int one = squash(std::clamp(sum >> 14, -kMostLogOdds, kMostLogOdds));
-    bit = coder.code_bit(static_cast<std::uint32_t>(4096 - one) << 3, bit);
-    const int error = (bit ? 4096 : 0) - one;
-    for (std::size_t i = 0; i < ShapeChoice::kContexts; ++i) {
-      weights[i] = std::clamp(weights[i] + ((odds[i] * error + (1 << 11)) >> 12), -kMostWeight, kMostWeight);
-      adapt(*estimates[i], bit);
-    }
-    return bit;
+    share[kEscape] = 2 * (size << 15) / (32768 - fall);
+    for (const std::uint64_t s : share) sum += s;
+    std::array<std::uint16_t, kEscape + 1> weights{};
+    for (std::size_t i = 0; i <= kEscape; ++i)
+      weights[i] = static_cast<std::uint16_t>(share[i] * 0xFFFF / sum);
+    return AdaptiveSymbol(weights);
   }
 
-  static void adapt(Estimate& estimate, bool bit) {
-    const int one = estimate.one, goal = bit ? 65535 : 0;
-    const int moved = one + (((goal - one) * kRates[estimate.count]) >> 16);
-    estimate.one = static_cast<std::uint16_t>(std::clamp(moved, 32, 65503));
-    if (estimate.count < kLimit) ++estimate.count;
-  }
-
-  /// Sizes beyond kSteps: Elias' gamma code of what is beyond, its length adaptive.
+  /// Sizes that the alphabet does not reach: a sign, then Elias' gamma code of what is beyond, its length
+  /// adaptive.
   template <class Coder>
-  [[gnu::noinline]] std::uint32_t code_escaped(Coder& coder, std::uint32_t size) {
-    const std::uint32_t beyond = std::max<std::uint32_t>(size, kSteps + 1) - kSteps;
-    const int wanted = std::bit_width(beyond) - 1;
+  [[gnu::noinline]] static std::int32_t code_escaped(Coder& coder, Lengths& lengths, std::int32_t wanted) {
+    const bool negative = coder.code_raw(wanted < 0 ? 1 : 0, 1) != 0;
+    const auto beyond = static_cast<std::uint32_t>(std::max(std::abs(wanted) - kLargest, 1));
+    const int wanted_length = std::bit_width(beyond) - 1;
     int length = 0;
-    while (length < static_cast<int>(escape_length_.size()) &&
-           coder.code(escape_length_[static_cast<std::size_t>(length)], length < wanted)) {
+    while (length < static_cast<int>(lengths.size()) &&
+           coder.code(lengths[static_cast<std::size_t>(length)], length < wanted_length)) {
       ++length;
     }
     const std::uint32_t value = (1u << length) | code_bits(coder, beyond, length);
-    return std::min<std::uint32_t>(value + kSteps, kBound);
+    const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(value + kLargest, kBound));
+    return negative ? -size : size;
   }
 
-  /// 65536 / (count + 1.6)
-  static constexpr std::array<std::int32_t, kLimit + 1> kRates = [] {
-    std::array<std::int32_t, kLimit + 1> rates{};
-    for (std::size_t n = 0; n < rates.size(); ++n)
-      rates[n] = static_cast<std::int32_t>((655360 + 5 * n + 8) / (10 * n + 16));
-    return rates;
-  }();
+  /// The low bits below `high`, of which only the first leans to one side.
+  template <class Coder>
+  std::int32_t code_low(Coder& coder, std::int32_t high, int raw_bits, std::int32_t turned) {
+    const auto wanted = static_cast<std::uint32_t>(turned) & ((1u << raw_bits) - 1);
+    const auto place = static_cast<std::size_t>(std::clamp(high, -kLargest - 1, kLargest + 1) + kLargest + 1);
+    const bool top = coder.code(top_[place], (wanted >> (raw_bits - 1)) != 0);
+    const std::uint32_t rest = code_bits(coder, wanted & ((1u << (raw_bits - 1)) - 1), raw_bits - 1);
+    const std::int64_t low = (std::int64_t{top} << (raw_bits - 1)) + rest;
+    const std::int64_t value = high * (std::int64_t{1} << raw_bits) + low;
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -kBound, kBound));
+  }
 
-  std::array<Estimate, (192 + 64 + 48 + 12 + 192) * kBins> estimates_;
-  std::array<Weights, kBins * kLevels / 4> weights_;
-  std::array<AdaptiveBit, 26> escape_length_;
+  std::array<AdaptiveSymbol, 2 * kLevels * 3> first_;  ///< [scaled][level][lost]
+  std::array<AdaptiveSymbol, 4 * 16> second_;          ///< [kind][around]
+  std::array<Lengths, 2> escape_length_;               ///< [scaled]
+  std::array<AdaptiveBit, 2 * kLargest + 3> top_;      ///< [high]
 };
 
 }  // namespace tvg

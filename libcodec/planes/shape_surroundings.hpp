@@ -91,9 +91,22 @@ class ShapeSurroundings {
       sides_[side_begin_[std::size_t{x} + 1]++] = side(z, y);
       sides_[side_begin_[std::size_t{y} + 1]++] = side(z, x);
     }
-    for (std::size_t v = 0; v < vertex_count; ++v)
-      std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(side_begin_[v]),
-                sides_.begin() + static_cast<std::ptrdiff_t>(side_begin_[v + 1]));
+    for (std::size_t v = 0; v < vertex_count; ++v) sort(side_begin_[v], side_begin_[v + 1]);
+  }
+
+  /// Most lists are so short that std::sort() would take longer.
+  void sort(std::size_t begin, std::size_t end) {
+    if (end - begin > 24) {
+      std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(begin),
+                sides_.begin() + static_cast<std::ptrdiff_t>(end));
+      return;
+    }
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      const std::uint64_t moved = sides_[i];
+      std::size_t place = i;
+      for (; place > begin && sides_[place - 1] > moved; --place) sides_[place] = sides_[place - 1];
+      sides_[place] = moved;
+    }
   }
 
   static Face sorted(Face face) {
