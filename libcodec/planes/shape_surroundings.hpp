@@ -14,6 +14,11 @@ namespace tvg {
 /// What a vertex is predicted from: the vertices it shares an edge with, and the parallelograms it closes
 /// (format-spec §5.3). They depend on which faces there are, not on their order.
 class ShapeSurroundings {
+  /// A side of a face, at one end of its edge: the other end, and the face's third corner.
+  struct Side {
+    std::uint32_t end, third;
+  };
+
  public:
   /// A face (a, b, v) and the vertex o of the one other face at the edge from a to b: v lies near a + b - o.
   struct Wing {
@@ -23,29 +28,28 @@ class ShapeSurroundings {
   /// What making it takes at most, for each vertex and each face.
   static constexpr std::size_t kBytesPerVertex = 3 * sizeof(std::size_t);
   static constexpr std::size_t kBytesPerFace =
-      3 * sizeof(std::uint64_t) + 3 * sizeof(Wing) + 6 * sizeof(std::uint32_t);
+      3 * sizeof(Side) + 3 * sizeof(Wing) + 6 * sizeof(std::uint32_t);
 
   /// Every index in `faces` is below `vertex_count`.
   ShapeSurroundings(std::span<const Face> faces, std::uint32_t vertex_count) {
     collect_sides(faces, vertex_count);
     ring_begin_.assign(std::size_t{vertex_count} + 2, 0);
     wing_begin_.assign(std::size_t{vertex_count} + 2, 0);
-    for_each_edge([this](std::uint32_t a, std::uint32_t b, std::span<const std::uint64_t> sides) {
+    for_each_edge([this](std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> thirds) {
       ++ring_begin_[std::size_t{a} + 2];
       ++ring_begin_[std::size_t{b} + 2];
-      if (sides.size() != 2) return;
-      for (const std::uint64_t side : sides) ++wing_begin_[std::size_t{third(side)} + 2];
+      if (thirds.size() != 2) return;
+      for (const std::uint32_t v : thirds) ++wing_begin_[std::size_t{v} + 2];
     });
     for (auto* begin : {&ring_begin_, &wing_begin_}) sum_up(*begin);
     rings_.resize(ring_begin_.back());
     wings_.resize(wing_begin_.back());
-    for_each_edge([this](std::uint32_t a, std::uint32_t b, std::span<const std::uint64_t> sides) {
+    for_each_edge([this](std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> thirds) {
       rings_[ring_begin_[std::size_t{a} + 1]++] = b;
       rings_[ring_begin_[std::size_t{b} + 1]++] = a;
-      if (sides.size() != 2) return;
-      const std::uint32_t first = third(sides[0]), second = third(sides[1]);
-      wings_[wing_begin_[std::size_t{first} + 1]++] = {a, b, second};
-      wings_[wing_begin_[std::size_t{second} + 1]++] = {a, b, first};
+      if (thirds.size() != 2) return;
+      wings_[wing_begin_[std::size_t{thirds[0]} + 1]++] = {a, b, thirds[1]};
+      wings_[wing_begin_[std::size_t{thirds[1]} + 1]++] = {a, b, thirds[0]};
     });
     sides_ = {};
   }
@@ -61,51 +65,41 @@ class ShapeSurroundings {
   }
 
  private:
-  /// A side of a face at the smaller end of an edge: the larger end, and the face's third corner.
-  static std::uint64_t side(std::uint32_t larger, std::uint32_t third) {
-    return std::uint64_t{larger} << 32 | third;
-  }
-  static std::uint32_t larger(std::uint64_t side) { return static_cast<std::uint32_t>(side >> 32); }
-  static std::uint32_t third(std::uint64_t side) { return static_cast<std::uint32_t>(side); }
-
   /// Counts at [v + 2] become places at [v + 1], which filling moves on to where v + 1 begins.
   static void sum_up(std::vector<std::size_t>& begin) {
     for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   }
 
-  /// The sides of all faces with three different corners, by the edge's smaller end, each list sorted.
+  /// The sides of all faces with three different corners, by the edge's smaller end, then the larger: sorted
+  /// by counting, the larger first.
   void collect_sides(std::span<const Face> faces, std::uint32_t vertex_count) {
+    std::vector<std::size_t> by_larger(std::size_t{vertex_count} + 2, 0);
     side_begin_.assign(std::size_t{vertex_count} + 2, 0);
-    for (const Face& face : faces) {
-      const auto [x, y, z] = sorted(face);
-      if (x == y || y == z) continue;
-      side_begin_[std::size_t{x} + 2] += 2;
-      ++side_begin_[std::size_t{y} + 2];
-    }
+    for_each_side(faces, [&](std::uint32_t smaller, std::uint32_t larger, std::uint32_t /*third*/) {
+      ++side_begin_[std::size_t{smaller} + 2];
+      ++by_larger[std::size_t{larger} + 2];
+    });
+    sum_up(by_larger);
     sum_up(side_begin_);
-    sides_.resize(side_begin_.back());
-    for (const Face& face : faces) {
-      const auto [x, y, z] = sorted(face);
-      if (x == y || y == z) continue;
-      sides_[side_begin_[std::size_t{x} + 1]++] = side(y, z);
-      sides_[side_begin_[std::size_t{x} + 1]++] = side(z, y);
-      sides_[side_begin_[std::size_t{y} + 1]++] = side(z, x);
+    std::vector<Side> sides(by_larger.back());
+    for_each_side(faces, [&](std::uint32_t smaller, std::uint32_t larger, std::uint32_t third) {
+      sides[by_larger[std::size_t{larger} + 1]++] = {smaller, third};
+    });
+    sides_.resize(sides.size());
+    for (std::uint32_t v = 0; v < vertex_count; ++v) {
+      for (std::size_t i = by_larger[v]; i < by_larger[v + 1]; ++i)
+        sides_[side_begin_[std::size_t{sides[i].end} + 1]++] = {v, sides[i].third};
     }
-    for (std::size_t v = 0; v < vertex_count; ++v) sort(side_begin_[v], side_begin_[v + 1]);
   }
 
-  /// Most lists are so short that std::sort() would take longer.
-  void sort(std::size_t begin, std::size_t end) {
-    if (end - begin > 24) {
-      std::sort(sides_.begin() + static_cast<std::ptrdiff_t>(begin),
-                sides_.begin() + static_cast<std::ptrdiff_t>(end));
-      return;
-    }
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const std::uint64_t moved = sides_[i];
-      std::size_t place = i;
-      for (; place > begin && sides_[place - 1] > moved; --place) sides_[place] = sides_[place - 1];
-      sides_[place] = moved;
+  template <class Use>
+  static void for_each_side(std::span<const Face> faces, Use use) {
+    for (const Face& face : faces) {
+      const auto [x, y, z] = sorted(face);
+      if (x == y || y == z) continue;
+      use(x, y, z);
+      use(x, z, y);
+      use(y, z, x);
     }
   }
 
@@ -116,26 +110,28 @@ class ShapeSurroundings {
     return face;
   }
 
-  /// Calls `use` with each edge, by ascending ends, and its different faces.
+  /// Calls `use` with each edge, by ascending ends, and the third corners of its faces, each once, up to
+  /// three of them: what matters is whether there are two.
   template <class Use>
   void for_each_edge(Use use) {
     const auto vertex_count = static_cast<std::uint32_t>(side_begin_.size() - 2);
-    std::array<std::uint64_t, 3> different{};  // what matters is whether there are exactly two
+    std::array<std::uint32_t, 3> thirds{};
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
       for (std::size_t i = side_begin_[v]; i < side_begin_[v + 1];) {
-        const std::uint32_t end = larger(sides_[i]);
+        const std::uint32_t end = sides_[i].end;
         std::size_t count = 0;
-        for (; i < side_begin_[v + 1] && larger(sides_[i]) == end; ++i) {
-          if (count < different.size() && (count == 0 || different[count - 1] != sides_[i]))
-            different[count++] = sides_[i];
+        for (; i < side_begin_[v + 1] && sides_[i].end == end; ++i) {
+          const auto known = thirds.begin() + static_cast<std::ptrdiff_t>(count);
+          if (count < thirds.size() && std::find(thirds.begin(), known, sides_[i].third) == known)
+            thirds[count++] = sides_[i].third;
         }
-        use(v, end, std::span<const std::uint64_t>(different).first(count));
+        use(v, end, std::span<const std::uint32_t>(thirds).first(count));
       }
     }
   }
 
   std::vector<std::size_t> side_begin_, ring_begin_, wing_begin_;  ///< [vertex]
-  std::vector<std::uint64_t> sides_;
+  std::vector<Side> sides_;
   std::vector<std::uint32_t> rings_;
   std::vector<Wing> wings_;
 };
