@@ -87,7 +87,7 @@ class ShapeCoder {
       const std::int32_t predicted = divide(total, guess.count());
       const std::int64_t around = inverse > 0 ? (sizes[k] * inverse) >> 8 : running_[k];
       const std::int64_t same = k == 0 ? around : k == 1 ? others : others / 2;
-      const std::int64_t expected = 51 * running_[k] + 128 * around + 77 * same;
+      const std::int64_t expected = 5 * running_[k] + 6 * around + 5 * same;
       const ShapeChoice choice = choose(guess, total - predicted * guess.count(), around, expected);
       const std::int32_t residual =
           models_->code(coder, choice, Coder::kDecoding ? 0 : position[k] - predicted);
@@ -98,7 +98,7 @@ class ShapeCoder {
       coded.size[k] = std::abs(residual);
       const std::int64_t size = std::int64_t{coded.size[k]} << 8;
       others += size;
-      if (guess.wings > 0) running_[k] += (size - running_[k]) >> 6;
+      if (guess.wings > 0) running_[k] += (size - running_[k]) >> 5;
     }
     coded_[v] = coded;
     last_ = coded.position;
@@ -142,10 +142,10 @@ class ShapeCoder {
   }
 
   /// `rest` is what rounding the guess has lost, times its count; `around` is in 1/256, `expected` in
-  /// 1/65536.
+  /// 1/4096.
   static ShapeChoice choose(const Guess& guess, std::int32_t rest, std::int64_t around,
                             std::int64_t expected) {
-    std::int64_t size = (guess.wings > 0 ? expected : 3 * expected) >> 8;
+    std::int64_t size = (guess.wings > 0 ? expected : 3 * expected) >> 4;
     int raw_bits = 0;
     for (; size > 640; size >>= 1) ++raw_bits;
     const std::uint32_t level = thirds(static_cast<std::uint32_t>(std::max<std::int64_t>(size, 5))) - 6;

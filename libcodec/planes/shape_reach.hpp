@@ -47,8 +47,8 @@ class ShapeReach {
       error += std::abs(wanted - ((over * c.reach) >> 8));
     }
     const std::int64_t weight = (1 << 20) / error;
-    c.product += ((product * weight) >> 16) - (c.product >> 8);
-    c.square = std::max<std::int64_t>(c.square + ((square * weight) >> 16) - (c.square >> 8), 256);
+    c.product += ((product * weight) >> 16) - (c.product >> 7);
+    c.square = std::max<std::int64_t>(c.square + ((square * weight) >> 16) - (c.square >> 7), 256);
     c.reach = std::clamp<std::int64_t>(256 * c.product / c.square, 0, 384);
   }
 
