@@ -117,10 +117,10 @@ class ShapeCoder {
     const std::span<const ShapeSurroundings::Wing> wings = surroundings_.wings(v);
     Lanes ends(Quad{}), across(Quad{});
     for (const ShapeSurroundings::Wing& wing : wings.first(std::min(wings.size(), kMostWings))) {
-      const Lanes a(coded_[wing.a].position), b(coded_[wing.b].position), o(coded_[wing.o].position);
+      const Quad &a = coded_[wing.a].position, &b = coded_[wing.b].position, &o = coded_[wing.o].position;
       const Lanes all_coded = Lanes::all(-(a[3] & b[3] & o[3]));
-      ends = ends + ((a + b) & all_coded);
-      across = across + (o & all_coded);
+      ends = ends + ((Lanes(a) + Lanes(b)) & all_coded);
+      across = across + (Lanes(o) & all_coded);
     }
     return {ends.quad(), across.quad()};
   }

@@ -118,16 +118,24 @@ class ShapeSurroundings {
     std::array<std::uint32_t, 3> thirds{};
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
       for (std::size_t i = side_begin_[v]; i < side_begin_[v + 1];) {
-        const std::uint32_t end = sides_[i].end;
-        std::size_t count = 0;
-        for (; i < side_begin_[v + 1] && sides_[i].end == end; ++i) {
-          const auto known = thirds.begin() + static_cast<std::ptrdiff_t>(count);
-          if (count < thirds.size() && std::find(thirds.begin(), known, sides_[i].third) == known)
-            thirds[count++] = sides_[i].third;
-        }
-        use(v, end, std::span<const std::uint32_t>(thirds).first(count));
+        const std::size_t first = i;
+        const std::uint32_t end = sides_[first].end;
+        do ++i;
+        while (i < side_begin_[v + 1] && sides_[i].end == end);
+        use(v, end, different_thirds(first, i, thirds));
       }
     }
+  }
+
+  std::span<const std::uint32_t> different_thirds(std::size_t begin, std::size_t end,
+                                                  std::array<std::uint32_t, 3>& thirds) const {
+    std::size_t count = 1;
+    thirds[0] = sides_[begin].third;
+    for (std::size_t i = begin + 1; i < end && count < thirds.size(); ++i) {
+      thirds[count] = sides_[i].third;
+      if (thirds[count] != thirds[0] && (count == 1 || thirds[2] != thirds[1])) ++count;
+    }
+    return std::span(thirds).first(count);
   }
 
   std::vector<std::size_t> side_begin_, ring_begin_, wing_begin_;  ///< [vertex]
