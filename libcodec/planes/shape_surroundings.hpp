@@ -51,7 +51,7 @@ class ShapeSurroundings {
       wings_[wing_begin_[std::size_t{thirds[0]} + 1]++] = {a, b, thirds[1]};
       wings_[wing_begin_[std::size_t{thirds[1]} + 1]++] = {a, b, thirds[0]};
     });
-    sides_ = {};
+    sides_ = std::vector<Side>();  // frees what {} would keep
   }
 
   /// The vertices that share an edge with `vertex`, ascending.
