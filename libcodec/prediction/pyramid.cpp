@@ -19,7 +19,6 @@ class Builder {
 
   [[nodiscard]] bool run(std::span<const Face> faces) {
     if (!prepare() || !edges_of(faces, shape_, graph_)) return false;
-    starts_.fill(0);
     std::size_t removals = 0;
     while (removals < kMostRemovals && graph_.size() > kBase && !graph_.links.empty()) {
       if (!remove_level()) return false;
@@ -50,8 +49,7 @@ class Builder {
         !try_resize(pyramid_.weight, static_cast<std::size_t>(wide)) || !try_resize(by_rank_, count) ||
         !search_.reserve(count))
       return false;
-    // The numbers of the vertices are those that this walk through all 32 bits meets below their count; their
-    // order is that of v * 0x9E3779B1.
+    // Any order without a pattern would do.
     for (std::uint32_t v = 0; v < count; ++v) by_rank_[v] = v;
     std::sort(by_rank_.begin(), by_rank_.end(),
               [](std::uint32_t a, std::uint32_t b) { return a * 0x9E3779B1u < b * 0x9E3779B1u; });

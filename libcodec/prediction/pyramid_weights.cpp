@@ -10,13 +10,13 @@ namespace tvg {
 namespace {
 
 constexpr std::size_t kMost = kMaxPyramidNeighbours;
-constexpr double kAffine = 100;   ///< of the kernel: how much more a miss of affine functions weighs
+constexpr double kAffine = 500;   ///< of the kernel: how much more a miss of affine functions weighs
 constexpr double kNoise = 1e-4;   ///< what keeps points that coincide apart
 constexpr double kLargest = 1.9;  ///< of a weight: fits 16 bits with what rounding adds
 
 using Row = std::array<double, kMost>;
 
-/// The kernel r^1.75 + 100 r^2 of squared distances.
+/// The kernel r^1.75 + 500 r^2 of squared distances.
 void kernel(const Row& squared, std::size_t count, double scale, Row& values) {
   for (std::size_t i = 0; i < count; ++i) {
     const double r2 = squared[i] * scale, r = std::sqrt(r2), root = std::sqrt(r);
