@@ -20,7 +20,7 @@ class Builder {
   [[nodiscard]] bool run(std::span<const Face> faces) {
     if (!prepare() || !edges_of(faces, shape_, graph_)) return false;
     std::size_t removals = 0;
-    while (removals < kMostRemovals && graph_.size() > kBase && !graph_.links.empty()) {
+    while (removals < kMostRemovals && graph_.size() > kBase) {
       if (!remove_level()) return false;
       starts_[removals++] = graph_.size();
     }
@@ -49,7 +49,7 @@ class Builder {
         !try_resize(pyramid_.weight, static_cast<std::size_t>(wide)) || !try_resize(by_rank_, count) ||
         !search_.reserve(count))
       return false;
-    // Any order without a pattern would do.
+    // Any order would do that has no pattern in space.
     for (std::uint32_t v = 0; v < count; ++v) by_rank_[v] = v;
     std::sort(by_rank_.begin(), by_rank_.end(),
               [](std::uint32_t a, std::uint32_t b) { return a * 0x9E3779B1u < b * 0x9E3779B1u; });
@@ -60,8 +60,8 @@ class Builder {
   bool remove_level() {
     if (!colour(graph_, by_rank_, colours_)) return false;
     const std::uint32_t most = *std::max_element(colours_.begin(), colours_.end());
-    // Those of colour 1 come last, and before them the others: each may be predicted from those of higher
-    // colours.
+    // Those of colour 1 come last: most have it, and so most have the others around them to be predicted
+    // from.
     std::vector<std::uint32_t>& time = colours_;
     std::vector<std::uint32_t> turn;
     if (!try_resize(turn, std::size_t{most} + 2)) return false;
@@ -113,8 +113,7 @@ class Builder {
   SurfaceGraph graph_;
   NearestSearch search_;
   std::vector<std::uint32_t> by_rank_;  ///< places of the graph
-  std::vector<std::uint32_t>
-      colours_;  ///< [place] colour, then time: 0 stays, the rest in the order of their turns
+  std::vector<std::uint32_t> colours_;  ///< [place] colour, then time: 0 stays, the rest as their turns come
   std::vector<std::uint32_t> places_;
   std::array<std::size_t, kMostRemovals> starts_{};  ///< [removal] the first turn it gave
 };

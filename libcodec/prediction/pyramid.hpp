@@ -31,7 +31,7 @@ struct Pyramid {
 
 /// The pyramid of a mesh: the same on every machine. `faces` holds valid indices; `shape` is a position for
 /// each of the `vertex_count` vertices; `neighbours` is within its limits. Linear in the size of the mesh but
-/// for sorting, whatever the mesh; beside the result, at most 40 bytes for each vertex and 96 for each face.
+/// for sorting, whatever the mesh; beside the result, at most 96 bytes for each vertex and 96 for each face.
 /// The only error is kOutOfMemory.
 Result<Pyramid> build_pyramid(std::span<const Face> faces, std::uint32_t vertex_count,
                               std::span<const std::array<std::int32_t, 3>> shape, std::uint32_t neighbours);

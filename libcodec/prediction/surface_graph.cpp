@@ -10,8 +10,8 @@ namespace tvg {
 
 namespace {
 
-constexpr std::uint32_t kLongest =
-    ~std::uint32_t{0};  /// A place with more links takes its colour before the others.
+constexpr std::uint32_t kLongest = ~std::uint32_t{0};
+/// A place with more links takes its colour before the others.
 constexpr std::size_t kHubLinks = 32;
 
 std::uint32_t edge_length(const ShapePoint& a, const ShapePoint& b) {
