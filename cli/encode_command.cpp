@@ -93,8 +93,10 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   options.predictor = std::map<std::string, Predictor>{
       {"space", Predictor::kSpace},
       {"time", Predictor::kTime},
-      {"elp",
-       Predictor::kElp}}.at(arguments.predictor);
+      {"elp", Predictor::kElp},
+      {"pyramid", Predictor::kPyramid},
+      {"auto",
+       Predictor::kAuto}}.at(arguments.predictor);
   options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : options.gop_frames);
   options.keep_vertex_order = !arguments.reorder;
   options.threads =
@@ -198,8 +200,12 @@ void add_encode_command(CLI::App& tool) {
       ->excludes(bits);
   add_measure_options(command, arguments->measure);
   command.add_option("--mode", arguments->mode, "how frames are coded: elp")->capture_default_str();
-  command.add_option("--predictor", arguments->predictor, "what vertices are predicted from")
-      ->check(CLI::IsMember({"space", "time", "elp"}))
+  command
+      .add_option(
+          "--predictor", arguments->predictor,
+          "what vertices are predicted from: elp as the paper has it, pyramid for smaller files, auto for "
+          "the smaller of the two in each frame")
+      ->check(CLI::IsMember({"space", "time", "elp", "pyramid", "auto"}))
       ->capture_default_str();
   command
       .add_option("--gop", arguments->gop,

@@ -32,11 +32,11 @@ struct InfoArguments {
 /// What only decoding tells.
 struct DecodedFacts {
   std::array<double, 3> residuals{};               ///< bytes of x, y and z
-  std::array<std::uint64_t, 3> predicted{};        ///< frames by their predictor
+  std::array<std::uint64_t, 4> predicted{};        ///< frames by their predictor
   std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
 };
 
-constexpr std::array<const char*, 3> kPredictorNames = {"space", "time", "elp"};
+constexpr std::array<const char*, 4> kPredictorNames = {"space", "time", "elp", "pyramid"};
 
 /// All that is shown of a stream.
 struct StreamSummary {
@@ -62,15 +62,16 @@ struct StreamSummary {
 
 /// Bytes by what they serve; the last takes what is left.
 std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summary) {
-  double connectivity = 0, order = 0, flags = 0;
+  double connectivity = 0, order = 0, shape = 0, flags = 0;
   for (const SurveyedMesh& mesh : summary.stream.meshes) {
     connectivity += static_cast<double>(mesh.parts.connectivity_bytes);
     order += static_cast<double>(mesh.parts.order_bytes);
+    shape += static_cast<double>(mesh.parts.shape_bytes);
   }
   for (const GopInfo& gop : summary.stream.gops) flags += static_cast<double>(gop.flag_bytes);
   std::vector<std::pair<const char*, double>> result = {
-      {"connectivity", connectivity}, {"order", order}, {"flags", flags}};
-  double left = static_cast<double>(summary.stream.bytes) - connectivity - order - flags;
+      {"connectivity", connectivity}, {"order", order}, {"shape", shape}, {"flags", flags}};
+  double left = static_cast<double>(summary.stream.bytes) - connectivity - order - shape - flags;
   if (!summary.decoded) {
     result.emplace_back("frames_and_container", left);
     return result;

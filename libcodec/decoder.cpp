@@ -84,21 +84,21 @@ std::optional<Decoder::Event> Decoder::State::take_mesh() {
 /// Decodes the mesh whose chunk was just read, unless it is in force already.
 Status Decoder::State::decode_mesh_read() {
   if (mesh_in_force(reader.mesh_id()) != nullptr) return {};
-  Result<CodedMesh> decoded = decode_mesh(reader.mesh(), reader.mesh_id());
+  Result<GopMesh> decoded = decode_gop_mesh(reader.mesh(), reader.mesh_id(), reader.head().limits);
   if (!decoded) return decoded.error();
   if (!can_allocate(kSmallThings)) return out_of_memory();
-  reader.keep(std::make_shared<const CodedMesh>(std::move(*decoded)));
+  reader.keep(std::make_shared<const GopMesh>(std::move(*decoded)));
   return {};
 }
 
 /// A mesh as it was decoded; null where none of this name is in force.
-std::shared_ptr<const CodedMesh> Decoder::State::mesh_in_force(std::uint32_t id) const {
+std::shared_ptr<const GopMesh> Decoder::State::mesh_in_force(std::uint32_t id) const {
   const ChunkWindow::Entry* const entry = reader.meshes().find(id);
-  return entry == nullptr ? nullptr : std::static_pointer_cast<const CodedMesh>(entry->content);
+  return entry == nullptr ? nullptr : std::static_pointer_cast<const GopMesh>(entry->content);
 }
 
 /// Makes a mesh that of the frames to come; false where it is already.
-bool Decoder::State::show(std::shared_ptr<const CodedMesh> next) {
+bool Decoder::State::show(std::shared_ptr<const GopMesh> next) {
   if (next == mesh) return false;
   mesh = std::move(next);
   return true;
@@ -257,10 +257,10 @@ const Metadata& Decoder::metadata() const {
   return state_->metadata;
 }
 const Mesh& Decoder::mesh() const {
-  return state_->mesh->mesh;
+  return state_->mesh->coded.mesh;
 }
 const MeshInfo& Decoder::mesh_info() const {
-  return state_->mesh->info;
+  return state_->mesh->coded.info;
 }
 const ChunkInfo& Decoder::chunk() const {
   return state_->chunk_info;

@@ -1,10 +1,10 @@
 #include "base/errors.hpp"
-#include "connectivity/mesh_coder_encode.hpp"
 #include "container/chunk.hpp"
 #include "container/stream_writer.hpp"
 #include "encoder/encode_checks.hpp"
 #include "encoder/gop_queue.hpp"
 #include "modes/gop_encoder.hpp"
+#include "modes/gop_mesh_encode.hpp"
 #include "quantization/lattice_over_encode.hpp"
 #include "source/gop_cutter.hpp"
 #include "source/source_checks.hpp"
@@ -26,7 +26,6 @@ struct Stretch {
       : options(std::move(encode_options)),
         mesh(std::move(given)),
         skeleton(std::move(joints)),
-        encoded(encode_mesh(mesh, options->keep_vertex_order)),
         measurer(mesh, skeleton, options->importance) {}
   Stretch(const Stretch&) = delete;
   Stretch& operator=(const Stretch&) = delete;
@@ -34,7 +33,7 @@ struct Stretch {
   std::shared_ptr<const EncodeOptions> options;
   Mesh mesh;
   Skeleton skeleton;
-  EncodedMesh encoded;
+  EncodedGopMesh encoded;  ///< once the mesh is written
   Measurer measurer;
 };
 
@@ -59,7 +58,7 @@ Result<GopChunk> mark_and_encode(const Job& job) {
     if (!measured) return measured.error();
     input.flags = std::move(measured->flags);
   }
-  return encode_gop(input, job.stretch->encoded.coded, job.limits);
+  return encode_gop(input, job.stretch->encoded.mesh, job.limits);
 }
 
 Error no_memory() {
@@ -89,6 +88,9 @@ class Encoder::State {
     frame_box.extend(positions);
     if (Status status = check_new_frame(positions, joints, frame_box); !status.ok()) return status;
     return lasting([&] {
+      if (!mesh_written_) {
+        if (Status status = write_mesh(positions); !status.ok()) return status;
+      }
       std::vector<float> kept;
       if (with_joints_) kept.assign(joints.begin(), joints.end());
       gop_box_ = around(gop_box_, frame_box);
@@ -177,7 +179,7 @@ class Encoder::State {
   std::uint64_t frames_added() const { return frames_before_ + (cutter_ ? cutter_->frames() : 0); }
 
   Status begin_stretch(const Mesh& mesh, const Skeleton& skeleton) {
-    auto stretch = std::make_shared<const Stretch>(mesh, skeleton, options_);
+    auto stretch = std::make_shared<Stretch>(mesh, skeleton, options_);
     if (stretch_) {
       if (Status status = flush(); !status.ok()) return status;
     } else {
@@ -185,12 +187,29 @@ class Encoder::State {
       report_.vertices = mesh.vertex_count;
       if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
     }
-    if (stretch->encoded.payload.size() > limits_.mesh_bytes)
-      return Error{ErrorCode::kLimitExceeded, "the mesh is coded in more bytes than the head declares"};
     frames_before_ = frames_added();
     stretch_ = std::move(stretch);
     cutter_.emplace(options_->gop_frames, options_->importance.low_delay);
-    return writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, stretch_->encoded.payload));
+    mesh_written_ = false;
+    return needs_shape(*options_) ? Status() : write_mesh({});
+  }
+
+  /// With a reference shape it is written with the first frame, which the shape is made of.
+  Status write_mesh(std::span<const float> first_frame) {
+    EncodedMesh connectivity = encode_mesh(stretch_->mesh, options_->keep_vertex_order);
+    if (needs_shape(*options_)) {
+      Result<EncodedGopMesh> encoded =
+          finish_mesh(std::move(connectivity), first_frame, std::min(options_->fine_bits + 1, kMaxBits));
+      if (!encoded) return encoded.error();
+      stretch_->encoded = std::move(*encoded);
+    } else {
+      stretch_->encoded = finish_mesh(std::move(connectivity));
+    }
+    const std::vector<std::uint8_t> payload = std::move(stretch_->encoded.payload);
+    if (payload.size() > limits_.mesh_bytes)
+      return Error{ErrorCode::kLimitExceeded, "the mesh is coded in more bytes than the head declares"};
+    mesh_written_ = true;
+    return writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, payload));
   }
 
   Status enqueue(GopContent gop) {
@@ -258,7 +277,8 @@ class Encoder::State {
   const bool with_joints_;
   StreamLimits limits_;
   EncodeReport report_;
-  std::shared_ptr<const Stretch> stretch_;
+  std::shared_ptr<Stretch> stretch_;
+  bool mesh_written_ = false;
   std::optional<GopCutter> cutter_;
   BoundingBox gop_box_;
   std::uint64_t frames_before_ = 0;  ///< those of meshes before the present one

@@ -23,7 +23,7 @@ Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t id) {
 
   CodedMesh coded;
   coded.id = id;
-  coded.info = {layout.connectivity.size(), layout.order.size(), layout.keeps_order};
+  coded.info = {layout.connectivity.size(), layout.order.size(), layout.shape.size(), layout.keeps_order};
   coded.gates = std::move(connectivity->gates);
   coded.mesh = {layout.vertex_count, std::move(connectivity->faces)};
   if (layout.keeps_order) {

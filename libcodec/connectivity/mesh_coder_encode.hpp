@@ -2,18 +2,23 @@
 #include "connectivity/mesh_coder.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tvg {
 
-/// A mesh chunk's payload (format-spec §4.3), and the mesh as the decoder will know it. Frames are given in
-/// the order of `mesh` on both sides, unless `keep_order` is false: the decoder then gives them in traversal
-/// order.
+/// The sections of a mesh that say how it hangs together (format-spec §5.1, §5.2), and the mesh as the
+/// decoder will know it. Frames are given in the order of `mesh` on both sides, unless `keep_order` is false:
+/// the decoder then gives them in traversal order.
 struct EncodedMesh {
-  std::vector<std::uint8_t> payload;
-  CodedMesh coded;
+  std::vector<std::uint8_t> connectivity, order;
+  CodedMesh coded;  ///< not named yet: the payload names it
 };
 
 EncodedMesh encode_mesh(const Mesh& mesh, bool keep_order);
+
+/// The payload of the mesh's chunk (§4.3), with a reference shape (§5.3) where that is not empty; names the
+/// mesh.
+std::vector<std::uint8_t> mesh_payload(EncodedMesh& mesh, std::span<const std::uint8_t> shape = {});
 
 }  // namespace tvg

@@ -13,6 +13,7 @@ namespace {
 // Kinds of sections.
 constexpr std::uint64_t kConnectivity = 1;
 constexpr std::uint64_t kVertexOrder = 3;
+constexpr std::uint64_t kReferenceShape = 5;
 
 void write_section(ByteWriter& writer, std::uint64_t kind, Bytes content) {
   writer.varint(kind);
@@ -28,6 +29,7 @@ std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh) {
   writer.varint(mesh.face_count);
   write_section(writer, kConnectivity, mesh.connectivity);
   if (mesh.keeps_order) write_section(writer, kVertexOrder, mesh.order);
+  if (!mesh.shape.empty()) write_section(writer, kReferenceShape, mesh.shape);
   return writer.take();
 }
 
@@ -55,6 +57,9 @@ Fault parse(ByteReader reader, MeshLayout& mesh) {
     } else if (kind == kVertexOrder) {
       mesh.keeps_order = true;
       mesh.order = content;
+    } else if (kind == kReferenceShape) {
+      if (content.empty()) return {"§5.3", "the reference shape of the mesh is empty"};
+      mesh.shape = content;
     } else if (is_required(kind)) {
       return {kSection, "the mesh has a section that this decoder does not know", ErrorCode::kUnsupported};
     }
@@ -71,8 +76,9 @@ Result<MeshLayout> read_mesh(Bytes payload) {
   return mesh;
 }
 
-std::uint32_t most_mesh_bytes(const StreamLimits& limits) {
-  const std::uint64_t bytes = 64 + 16 * (std::uint64_t{limits.vertices} + limits.faces);
+std::uint32_t most_mesh_bytes(const StreamLimits& limits, bool with_shape) {
+  std::uint64_t bytes = 64 + 16 * (std::uint64_t{limits.vertices} + limits.faces);
+  if (with_shape) bytes += 64 + 24 * std::uint64_t{limits.vertices};
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, kMaxChunkLength));
 }
 

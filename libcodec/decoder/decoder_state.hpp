@@ -1,5 +1,4 @@
 #pragma once
-#include "connectivity/mesh_coder.hpp"
 #include "container/chunk_reader.hpp"
 #include "decoder/damage.hpp"
 #include "modes/gop_decoder.hpp"
@@ -27,7 +26,7 @@ class Decoder::State {
 
   // What the caller sees.
   ChunkReader reader;
-  std::shared_ptr<const CodedMesh> mesh = std::make_shared<const CodedMesh>();  ///< that of the frames
+  std::shared_ptr<const GopMesh> mesh = std::make_shared<const GopMesh>();  ///< that of the frames
   GopDecoder gop;
   GopInfo gop_info;
   std::uint64_t frame_number = 0;
@@ -47,8 +46,8 @@ class Decoder::State {
   Event take_chunk();
   std::optional<Event> take_mesh();
   Status decode_mesh_read();
-  std::shared_ptr<const CodedMesh> mesh_in_force(std::uint32_t id) const;
-  bool show(std::shared_ptr<const CodedMesh> next);
+  std::shared_ptr<const GopMesh> mesh_in_force(std::uint32_t id) const;
+  bool show(std::shared_ptr<const GopMesh> next);
   std::optional<Event> begin_gop();
   Event reject_gop(std::uint64_t missing, Error cause);
   std::optional<Event> lose_gop();

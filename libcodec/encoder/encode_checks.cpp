@@ -40,7 +40,8 @@ Status check_options(const EncodeOptions& options) {
                         std::isfinite(std::ldexp(*options.step, options.fine_bits - options.coarse_bits)))) {
     return invalid_argument("the step must be a positive length in the mesh's units, and finite");
   }
-  if (options.predictor > Predictor::kElp) return invalid_argument("there is no such predictor");
+  if (options.predictor > Predictor::kPyramid && options.predictor != Predictor::kAuto)
+    return invalid_argument("there is no such predictor");
   if (options.first_frame > kMaxFirstFrame)
     return invalid_argument("the number of the first frame is too large");
   if (options.gop_frames == 0 || options.gop_frames > (1u << 16)) {
@@ -61,6 +62,10 @@ Status check_options(const EncodeOptions& options) {
   return check_metadata(options.metadata);
 }
 
+bool needs_shape(const EncodeOptions& options) {
+  return options.predictor == Predictor::kPyramid || options.predictor == Predictor::kAuto;
+}
+
 StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   StreamLimits limits;
   limits.vertices = std::max(mesh.vertex_count, options.max_vertices);
@@ -70,8 +75,9 @@ StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   limits.packet_bytes = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(256 + 24 * std::uint64_t{limits.vertices}, kMaxChunkLength));
   limits.meshes = options.max_meshes;
-  limits.mesh_bytes = most_mesh_bytes(limits);
-  limits.decoder_memory = decoder_memory_needed(limits);
+  limits.mesh_bytes = most_mesh_bytes(limits, needs_shape(options));
+  limits.decoder_memory =
+      needs_shape(options) ? decoder_memory_with_shapes(limits) : decoder_memory_needed(limits);
   return limits;
 }
 

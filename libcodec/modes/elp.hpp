@@ -1,12 +1,15 @@
 #pragma once
 #include "base/checksum.hpp"
 #include "planes/plane_coder.hpp"
+#include "planes/pyramid_coder.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include <tvg/types.hpp>
 
@@ -18,7 +21,21 @@ using PositionCoder = PlaneCoder<3>;
 
 /// The predictor of a GOP's `frame` that an encoder uses: nothing comes before the first one.
 constexpr Predictor predictor_of(std::uint32_t frame, Predictor asked) {
-  return frame == 0 ? Predictor::kSpace : asked;
+  return frame == 0 && asked != Predictor::kPyramid ? Predictor::kSpace : asked;
+}
+
+/// Codes the frame whose indices `positions` holds, for both directions; false where a decoded index lies
+/// outside its lattice. `along_pyramid` is there where frames of the GOP may be predicted so.
+template <class Coder>
+bool code_frame(Coder& coder, Predictor predictor, PositionCoder& positions,
+                std::optional<PyramidCoder>& along_pyramid) {
+  if (predictor == Predictor::kPyramid) {
+    positions.pass();
+    return along_pyramid->code(coder, positions.indices());
+  }
+  const bool inside = positions.code(coder, predictor);
+  if (along_pyramid) along_pyramid->follow(std::as_const(positions).indices());
+  return inside;
 }
 
 /// Adds a frame to the digest of positions (§7.6): x, y and z of each vertex.

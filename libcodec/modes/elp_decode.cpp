@@ -12,12 +12,17 @@
 namespace tvg {
 
 // format-spec §7.4
-Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh) {
+Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const GopMesh> mesh) {
   ElpHeader elp;
   if (Status status = read_elp_header(header, elp); !status.ok()) return status;
-  const std::size_t vertex_count = mesh->gates.size();
-  if (!can_allocate(vertex_count * (PositionCoder::kBytesPerVertex + 1) + PositionCoder::kMostModelBytes))
-    return out_of_memory();
+  const bool by_pyramid = elp.predictors.has(Predictor::kPyramid);
+  if (by_pyramid && !mesh->pyramid)
+    return malformed("§4.5.1", "a GOP is predicted along the pyramid of a mesh that has none");
+  const std::size_t vertex_count = mesh->coded.gates.size();
+  std::size_t bytes = vertex_count * (PositionCoder::kBytesPerVertex + 1) + PositionCoder::kMostModelBytes;
+  if (by_pyramid) bytes += vertex_count * PyramidCoder::kBytesPerVertex + PyramidCoder::kMostOtherBytes;
+  along_pyramid_.reset();
+  if (!can_allocate(bytes)) return out_of_memory();
   mesh_ = std::move(mesh);
   channels_ = elp.channels;
   lattice_ = elp.lattice;
@@ -27,11 +32,13 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const CodedMes
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
     RangeDecoder coder(elp.flags);
-    code_flags(coder, mesh_->gates, flags_);
+    code_flags(coder, mesh_->coded.gates, flags_);
     if (!coder.finished()) return malformed("§6.1", "the importance flags do not fill their bytes exactly");
     info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));
   }
-  positions_.emplace(Schedule(mesh_->gates), flags_, lattice_);
+  predictors_ = elp.predictors;
+  positions_.emplace(Schedule(mesh_->coded.gates), flags_, lattice_);
+  if (by_pyramid) along_pyramid_.emplace(*mesh_->pyramid, flags_, lattice_);
   frames_taken_ = 0;
   digest_ = Hasher();
   return {};
@@ -39,7 +46,9 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const CodedMes
 
 // format-spec §4.5.2
 Result<Bytes> ElpDecoder::open(Bytes packet, Predictor predictor) const {
-  if (frames_taken_ == 0 && predictor != Predictor::kSpace)
+  if (!predictors_.has(predictor))
+    return malformed("§4.5.2", "a frame has a predictor that the GOP's header does not name");
+  if (frames_taken_ == 0 && (predictor == Predictor::kTime || predictor == Predictor::kElp))
     return malformed("§4.5.2", "the first frame of a GOP is predicted from one before it");
   return positions_piece(channels_, packet);
 }
@@ -73,7 +82,7 @@ void ElpDecoder::copy_positions(void* positions, std::size_t stride) const {
       const std::int32_t index = shift_to_coarse(indices[v][axis], fine ? 0 : shift);
       position[axis] = reconstruct(index, lattice_.origin[axis], step);
     }
-    std::memcpy(target + stride * mesh_->order[v], position.data(), sizeof position);
+    std::memcpy(target + stride * mesh_->coded.order[v], position.data(), sizeof position);
   }
 }
 
@@ -81,14 +90,15 @@ void ElpDecoder::copy_lattice(std::span<std::int32_t> target) const {
   const std::span<const Quad> indices = positions_->indices();
   for (std::size_t v = 0; v < indices.size(); ++v) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      target[3 * std::size_t{mesh_->order[v]} + axis] =
+      target[3 * std::size_t{mesh_->coded.order[v]} + axis] =
           shift_to_coarse(indices[v][axis], flagged(v) ? 0 : lattice_.shift());
     }
   }
 }
 
 void ElpDecoder::copy_flags(std::span<std::uint8_t> target) const {
-  for (std::size_t v = 0; v < mesh_->order.size(); ++v) target[mesh_->order[v]] = flagged(v) ? 1 : 0;
+  for (std::size_t v = 0; v < mesh_->coded.order.size(); ++v)
+    target[mesh_->coded.order[v]] = flagged(v) ? 1 : 0;
 }
 
 }  // namespace tvg

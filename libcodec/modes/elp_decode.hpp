@@ -1,8 +1,9 @@
 #pragma once
 #include "base/checksum.hpp"
-#include "connectivity/mesh_coder.hpp"
 #include "modes/elp.hpp"
 #include "modes/elp_header.hpp"
+#include "modes/gop_mesh.hpp"
+#include "planes/pyramid_coder.hpp"
 
 #include <array>
 #include <cstddef>
@@ -20,7 +21,7 @@ namespace tvg {
 class ElpDecoder {
  public:
   /// Begins the GOP with this header. kOutOfMemory where there is no room; kUnsupported, kMalformed.
-  Status begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh);
+  Status begin(const GopHeader& header, std::shared_ptr<const GopMesh> mesh);
 
   /// Decodes the next frame's packet; after an error the rest of the GOP is lost.
   Status take(Bytes packet, Predictor predictor);
@@ -45,12 +46,14 @@ class ElpDecoder {
   Status decode(Coder& coder, Predictor predictor);
   bool flagged(std::size_t v) const { return flags_.empty() || flags_[v] != 0; }
 
-  std::shared_ptr<const CodedMesh> mesh_;
+  std::shared_ptr<const GopMesh> mesh_;
   GopInfo info_;
   Channels channels_;
   Lattice lattice_;
   std::vector<std::uint8_t> flags_;  ///< [traversal index]; empty when the lattice is not hybrid
-  std::optional<PositionCoder> positions_;
+  PredictorSet predictors_;
+  std::optional<PositionCoder> positions_;  ///< holds the frame
+  std::optional<PyramidCoder> along_pyramid_;
   std::uint32_t frames_taken_ = 0;
   Hasher digest_;
 };

@@ -1,6 +1,5 @@
 #include "modes/elp_encode.hpp"
 
-#include "modes/elp_header.hpp"
 #include "quantization/flag_coder.hpp"
 
 #include <utility>
@@ -18,33 +17,60 @@ std::vector<std::uint8_t> flags_in_traversal_order(const GopInput& input, const 
   return flags;
 }
 
+bool may_use_pyramid(Predictor predictor) {
+  return predictor == Predictor::kPyramid || predictor == Predictor::kAuto;
+}
+
 }  // namespace
 
-ElpEncoder::ElpEncoder(const GopInput& input, const CodedMesh& mesh)
+ElpEncoder::ElpEncoder(const GopInput& input, const GopMesh& mesh)
     : input_(input),
       mesh_(mesh),
-      flags_(flags_in_traversal_order(input, mesh)),
-      positions_(Schedule(mesh.gates), flags_, input.lattice) {}
+      flags_(flags_in_traversal_order(input, mesh.coded)),
+      positions_(Schedule(mesh.coded.gates), flags_, input.lattice) {
+  if (may_use_pyramid(input.predictor)) along_pyramid_.emplace(*mesh.pyramid, flags_, input.lattice);
+}
 
 // format-spec §7.4
-std::vector<std::uint8_t> ElpEncoder::begin() {
-  const Lattice& lattice = input_.lattice;
+std::vector<std::uint8_t> ElpEncoder::finish() {
   std::vector<std::uint8_t> coded_flags;
-  if (lattice.hybrid()) {
-    code_flags(coder_, mesh_.gates, flags_);
+  if (input_.lattice.hybrid()) {
+    code_flags(coder_, mesh_.coded.gates, flags_);
     coded_flags = coder_.finish();
   }
-  return write_elp_header(lattice, coded_flags);
+  return write_elp_header(predictors_, input_.lattice, coded_flags);
 }
 
 // format-spec §7.5
-std::vector<std::uint8_t> ElpEncoder::take(const FramePositions& frame) {
+EncodedFrame ElpEncoder::take(const FramePositions& frame) {
   positions_.next();
   quantize_frame(frame);
-  positions_.code(coder_, predictor());
+  EncodedFrame encoded = input_.predictor == Predictor::kAuto
+                             ? encode_smaller()
+                             : encode(predictor_of(frames_taken_, input_.predictor));
   ++frames_taken_;
+  predictors_.add(encoded.predictor);
   add_to_digest(digest_, std::as_const(positions_).indices());
-  return coder_.finish();
+  return encoded;
+}
+
+EncodedFrame ElpEncoder::encode(Predictor predictor) {
+  code_frame(coder_, predictor, positions_, along_pyramid_);
+  return {predictor, coder_.finish()};
+}
+
+/// Tries both, each from where the frames before have left the models, and goes on from the smaller.
+EncodedFrame ElpEncoder::encode_smaller() {
+  const PositionCoder positions_before = positions_;
+  const std::optional<PyramidCoder> pyramid_before = along_pyramid_;
+  EncodedFrame by_gates = encode(predictor_of(frames_taken_, Predictor::kElp));
+  PositionCoder positions_after = std::exchange(positions_, positions_before);
+  std::optional<PyramidCoder> pyramid_after = std::exchange(along_pyramid_, pyramid_before);
+  EncodedFrame by_pyramid = encode(Predictor::kPyramid);
+  if (by_pyramid.content.size() <= by_gates.content.size()) return by_pyramid;
+  positions_ = std::move(positions_after);
+  along_pyramid_ = std::move(pyramid_after);
+  return by_gates;
 }
 
 /// Quantizes a frame to the fine lattice; what has no flag then loses the bits its own lattice does not have.
@@ -57,7 +83,7 @@ void ElpEncoder::quantize_frame(const FramePositions& frame) {
     indices[v] = {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::int32_t index =
-          quantize(frame[3 * std::size_t{mesh_.order[v]} + axis], lattice.origin[axis], lattice);
+          quantize(frame[3 * std::size_t{mesh_.coded.order[v]} + axis], lattice.origin[axis], lattice);
       indices[v][axis] = fine ? index : pad_to_fine(shift_to_coarse(index, shift), shift);
     }
   }

@@ -11,6 +11,7 @@ namespace tvg {
 namespace {
 
 constexpr const char* kSection = "§4.5.1";
+constexpr int kPredictors = 4;
 constexpr Fault kShort{kSection, "the GOP's header is too short"};
 
 /// Channel numbers in front of the other fields; all but the first may be unknown.
@@ -52,12 +53,17 @@ Fault parse(const GopHeader& header, ElpHeader& elp) {
   if (!header.planes.empty()) return {kSection, "a GOP in mode elp names planes"};
   ByteReader reader(header.fields);
   if (const Fault fault = parse_channels(reader, elp.channels)) return fault;
+  elp.predictors = PredictorSet(reader.u8());
   Lattice& lattice = elp.lattice;
   lattice.fine_bits = reader.u8();
   lattice.coarse_bits = reader.u8();
   for (double& coordinate : lattice.origin) coordinate = reader.f64();
   lattice.step = reader.f64();
   if (!reader.ok()) return kShort;
+  if (elp.predictors.bits() >> kPredictors != 0)
+    return {kSection, "the GOP has a predictor that this decoder does not know", ErrorCode::kUnsupported};
+  if (!elp.predictors.has(Predictor::kSpace) && !elp.predictors.has(Predictor::kPyramid))
+    return {kSection, "the GOP has no predictor for its first frame"};
   if (const Fault fault = fault_in(lattice)) return fault;
   elp.flags = reader.bytes(reader.left());
   if (!lattice.hybrid() && !elp.flags.empty()) return {kSection, "a GOP with one lattice carries flags"};
@@ -66,10 +72,11 @@ Fault parse(const GopHeader& header, ElpHeader& elp) {
 
 }  // namespace
 
-std::vector<std::uint8_t> write_elp_header(const Lattice& lattice, Bytes flags) {
+std::vector<std::uint8_t> write_elp_header(PredictorSet predictors, const Lattice& lattice, Bytes flags) {
   ByteWriter writer;
   writer.varint(1);
   writer.varint(kPositionsChannel);
+  writer.u8(predictors.bits());
   writer.u8(static_cast<std::uint8_t>(lattice.fine_bits));
   writer.u8(static_cast<std::uint8_t>(lattice.coarse_bits));
   for (const double coordinate : lattice.origin) writer.f64(coordinate);
@@ -121,6 +128,8 @@ GopInfo gop_info(const GopHeader& header, const ElpHeader& elp) {
   info.first_frame = header.first_frame;
   info.source_frame = header.first_frame;
   info.frame_count = header.frame_count;
+  for (std::size_t p = 0; p < info.predictors.size(); ++p)
+    info.predictors[p] = elp.predictors.has(static_cast<Predictor>(p));
   info.fine_bits = elp.lattice.fine_bits;
   info.coarse_bits = elp.lattice.coarse_bits;
   info.origin = elp.lattice.origin;

@@ -19,7 +19,7 @@ class GopDecoder {
  public:
   /// Begins the GOP with this header, which is in a known mode. kOutOfMemory where there is no room;
   /// kUnsupported, kMalformed.
-  Status begin(const GopHeader& header, std::shared_ptr<const CodedMesh> mesh) {
+  Status begin(const GopHeader& header, std::shared_ptr<const GopMesh> mesh) {
     return mode().begin(header, std::move(mesh));
   }
 

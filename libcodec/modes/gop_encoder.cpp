@@ -10,12 +10,14 @@
 
 namespace tvg {
 
-Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedMesh& mesh,
+Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const GopMesh& mesh,
                                              const StreamLimits& limits) {
   const auto frame_count = static_cast<std::uint32_t>(input.frames.size());
   ElpEncoder mode(input, mesh);
-  const std::vector<std::uint8_t> fields = mode.begin();
-  const std::vector<std::uint8_t> header = write_gop_header({.mesh = mesh.id,
+  std::vector<EncodedFrame> frames;
+  for (const FramePositions& frame : input.frames) frames.push_back(mode.take(frame));
+  const std::vector<std::uint8_t> fields = mode.finish();
+  const std::vector<std::uint8_t> header = write_gop_header({.mesh = mesh.coded.id,
                                                              .first_frame = input.first_frame,
                                                              .frame_count = frame_count,
                                                              .packet_count = frame_count + 1,
@@ -26,11 +28,10 @@ Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const CodedM
   const std::uint32_t header_checksum = write_packet(gop, 0, packet_kind::kHeader, header);
   std::size_t largest_packet = header.size();
   std::uint32_t packet_number = 0;
-  for (const FramePositions& frame : input.frames) {
-    const std::uint8_t kind = packet_kind::frame(mode.predictor());
-    const std::vector<std::uint8_t> packet = mode.take(frame);
-    largest_packet = std::max(largest_packet, packet.size());
-    write_packet(gop, packet_seed(header_checksum, ++packet_number), kind, packet);
+  for (const EncodedFrame& frame : frames) {
+    largest_packet = std::max(largest_packet, frame.content.size());
+    write_packet(gop, packet_seed(header_checksum, ++packet_number), packet_kind::frame(frame.predictor),
+                 frame.content);
   }
   write_packet(gop, packet_seed(header_checksum, ++packet_number), packet_kind::kDigest,
                write_digest(mode.digest()));

@@ -52,6 +52,9 @@ class PlaneCoder {
   /// Makes the current planes the reference planes; the current ones are then unspecified.
   void next() { std::swap(current_, previous_); }
 
+  /// Says that the current planes are coded otherwise.
+  void pass() { alone_ = false; }
+
   /// Codes the current planes, the first time with a predictor that needs no reference planes. Returns false
   /// when a decoded index lies outside its lattice: the stream is damaged, and the planes must not be used.
   template <class Coder>

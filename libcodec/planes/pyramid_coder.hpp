@@ -15,10 +15,10 @@
 
 namespace tvg {
 
-/// Predicts and codes positions along the pyramid, coarse to fine (format-spec §7.7): a vertex is predicted as
-/// the weighted mean of its neighbours in the same frame and the detail that is expected of it, which is how
-/// it missed that mean in the frames before. Written once for both directions, as PlaneCoder; which holds the
-/// planes.
+/// Predicts and codes positions along the pyramid, coarse to fine (format-spec §7.7): a vertex is predicted
+/// as the weighted mean of its neighbours in the same frame and the detail that is expected of it, which is
+/// how it missed that mean in the frames before. Written once for both directions, as PlaneCoder; which holds
+/// the planes.
 class PyramidCoder {
  public:
   /// What a coder allocates, all of it when it is made: for each vertex, and beside that.
@@ -27,7 +27,7 @@ class PyramidCoder {
 
   /// What is referred to must outlive the coder; `flags` are [vertex], empty when the lattice is not hybrid.
   PyramidCoder(const Pyramid& pyramid, std::span<const std::uint8_t> flags, const Lattice& lattice)
-      : pyramid_(pyramid),
+      : pyramid_(&pyramid),
         flags_(flags),
         bits_(lattice.fine_bits),
         nested_(lattice.shift()),
@@ -36,13 +36,13 @@ class PyramidCoder {
         sizes_before_(sizes_),
         level_sizes_(256, all(2 * kCell * 16)) {}
 
-  /// Codes a frame whose indices on the fine lattice are `planes`; a decoder fills them in. Returns false when
-  /// a decoded index lies outside its lattice.
+  /// Codes a frame whose indices on the fine lattice are `planes`; a decoder fills them in. Returns false
+  /// when a decoded index lies outside its lattice.
   template <class Coder>
   bool code(Coder& coder, std::span<Quad> planes) {
     std::uint32_t outside = 0;
     sizes_.swap(sizes_before_);
-    for (std::size_t turn = 0; turn < pyramid_.order.size(); ++turn) {
+    for (std::size_t turn = 0; turn < pyramid_->order.size(); ++turn) {
       outside |= code_vertex(coder, planes, turn);
       if constexpr (Coder::kDecoding) {
         if (turn % 256 == 255 && coder.overrun()) return false;
@@ -54,10 +54,10 @@ class PyramidCoder {
 
   /// Takes note of a frame that was coded otherwise.
   void follow(std::span<const Quad> planes) {
-    for (std::size_t turn = 0; turn < pyramid_.order.size(); ++turn) {
-      const std::uint32_t v = pyramid_.order[turn];
+    for (std::size_t turn = 0; turn < pyramid_->order.size(); ++turn) {
+      const std::uint32_t v = pyramid_->order[turn];
       const int shift = shift_of(v);
-      take_details(v, shifted(planes[v], shift), mean_of(v, planes, shift));
+      take_details(v, shifted(planes[v], shift), mean_of(turn, planes, shift));
     }
     ++frames_;
   }
@@ -74,23 +74,27 @@ class PyramidCoder {
   static Quad shifted(const Quad& quad, int shift) { return (Lanes(quad) >> shift).quad(); }
   int shift_of(std::uint32_t v) const { return flags_.empty() || flags_[v] != 0 ? 0 : nested_; }
 
-  std::span<const std::uint32_t> neighbours(std::uint32_t v) const {
-    return std::span(pyramid_.neighbour).subspan(std::size_t{v} * pyramid_.neighbours, pyramid_.count[v]);
+  /// Of the vertex with this turn, nearest first.
+  std::span<const std::uint32_t> neighbours(std::size_t turn) const {
+    return std::span(pyramid_->neighbour).subspan(turn * pyramid_->neighbours, pyramid_->count[turn]);
   }
 
-  /// The weighted mean of v's neighbours on its own lattice, `shift` bits from the fine one, in 1/64 of a cell.
+  /// The weighted mean of a vertex's neighbours on its own lattice, `shift` bits from the fine one, in 1/64
+  /// of a cell.
   // format-spec §7.7.2
-  Quad mean_of(std::uint32_t v, std::span<const Quad> planes, int shift) const {
-    const std::span<const std::uint32_t> around = neighbours(v);
-    const auto* const weights = pyramid_.weight.data() + std::size_t{v} * pyramid_.neighbours;
+  Quad mean_of(std::size_t turn, std::span<const Quad> planes, int shift) const {
+    const std::span<const std::uint32_t> around = neighbours(turn);
+    const std::int16_t* const weights = pyramid_->weight.data() + turn * pyramid_->neighbours;
     std::array<std::int64_t, 3> sum{};
     for (std::size_t j = 0; j < around.size(); ++j) {
       const Quad& at = planes[around[j]];
-      for (std::size_t plane = 0; plane < 3; ++plane) sum[plane] += std::int64_t{weights[j]} * (at[plane] >> shift);
+      for (std::size_t plane = 0; plane < 3; ++plane)
+        sum[plane] += std::int64_t{weights[j]} * (at[plane] >> shift);
     }
     Quad mean{};
     for (std::size_t plane = 0; plane < 3; ++plane)
-      mean[plane] = static_cast<std::int32_t>(std::clamp<std::int64_t>((sum[plane] + 128) >> 8, -kMost, kMost));
+      mean[plane] =
+          static_cast<std::int32_t>(std::clamp<std::int64_t>((sum[plane] + 128) >> 8, -kMost, kMost));
     return mean;
   }
 
@@ -104,16 +108,16 @@ class PyramidCoder {
   /// Where the first vertex of a GOP, or one without neighbours, is expected.
   Quad start(std::size_t turn, std::span<const Quad> planes, int shift) const {
     if (turn == 0) return all((1 << (bits_ - 1) >> shift) << kDetailBits);
-    return (Lanes(shifted(planes[pyramid_.order[turn - 1]], shift)) << kDetailBits).quad();
+    return (Lanes(shifted(planes[pyramid_->order[turn - 1]], shift)) << kDetailBits).quad();
   }
 
   template <class Coder>
   std::uint32_t code_vertex(Coder& coder, std::span<Quad> planes, std::size_t turn) {
-    const std::uint32_t v = pyramid_.order[turn];
-    const std::span<const std::uint32_t> around = neighbours(v);
+    const std::uint32_t v = pyramid_->order[turn];
+    const std::span<const std::uint32_t> around = neighbours(turn);
     const int shift = shift_of(v);
     const bool first = frames_ == 0;
-    const Quad mean = mean_of(v, planes, shift);
+    const Quad mean = mean_of(turn, planes, shift);
     Quad predicted = mean;
     if (!first) {
       predicted = (Lanes(mean) + Lanes(details_.expected(v, around))).quad();
@@ -122,7 +126,7 @@ class PyramidCoder {
     }
     const Quad wanted = shifted(planes[v], shift);
     const std::int32_t last = (1 << (bits_ - shift)) - 1;
-    Quad& level = level_sizes_[pyramid_.level[v]];
+    Quad& level = level_sizes_[pyramid_->level[turn]];
     Quad beside = sizes_beside(around);
     if (around.empty()) beside = level_size(level);
     Quad index{};
@@ -135,13 +139,16 @@ class PyramidCoder {
       known.beside = static_cast<std::uint32_t>(beside[plane]);
       const std::int32_t other = plane == 0 ? beside[plane] : earlier / static_cast<std::int32_t>(plane);
       known.before = static_cast<std::uint32_t>(first ? other : sizes_before_[v][plane]);
-      known.size = expected_size(level[plane] >> 4, beside[plane], sizes_before_[v][plane], other, first, around.empty());
+      known.size = expected_size(level[plane] >> 4, beside[plane], sizes_before_[v][plane], other, first,
+                                 around.empty());
       known.lost = std::clamp(predicted[plane] - (rounded << kDetailBits), -32, 32);
-      const std::int32_t residual = models_.code(coder, known, Coder::kDecoding ? 0 : wanted[plane] - rounded);
+      const std::int32_t residual =
+          models_.code(coder, known, Coder::kDecoding ? 0 : wanted[plane] - rounded);
       const std::int32_t value = rounded + residual;
       index[plane] = value & last;
       outside |= static_cast<std::uint32_t>(value ^ index[plane]);
-      const std::int32_t missed = std::clamp((index[plane] << kDetailBits) - predicted[plane], -kMostSize / 4, kMostSize / 4);
+      const std::int32_t missed =
+          std::clamp((index[plane] << kDetailBits) - predicted[plane], -kMostSize / 4, kMostSize / 4);
       const std::int32_t size = (missed < 0 ? -missed : missed) * 4;
       sizes_[v][plane] = size;
       earlier += size;
@@ -169,8 +176,8 @@ class PyramidCoder {
     return sizes;
   }
 
-  static std::uint32_t expected_size(std::int32_t level, std::int32_t beside, std::int32_t before, std::int32_t other,
-                                     bool first, bool alone) {
+  static std::uint32_t expected_size(std::int32_t level, std::int32_t beside, std::int32_t before,
+                                     std::int32_t other, bool first, bool alone) {
     if (first && alone) return 200 * kCell;
     if (first) return static_cast<std::uint32_t>((level + beside) / 2);
     return static_cast<std::uint32_t>((std::int64_t{38} * level + std::int64_t{90} * beside +
@@ -178,7 +185,7 @@ class PyramidCoder {
                                       8);
   }
 
-  const Pyramid& pyramid_;
+  const Pyramid* pyramid_;
   std::span<const std::uint8_t> flags_;
   int bits_;    ///< of the fine lattice
   int nested_;  ///< bits between the two lattices

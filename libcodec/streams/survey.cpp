@@ -72,9 +72,10 @@ class Surveyor {
         break;
       case ChunkReader::Event::kMesh: {
         const MeshLayout& mesh = reader_.mesh();
-        result_.meshes.push_back({mesh.vertex_count,
-                                  mesh.face_count,
-                                  {mesh.connectivity.size(), mesh.order.size(), mesh.keeps_order}});
+        result_.meshes.push_back(
+            {mesh.vertex_count,
+             mesh.face_count,
+             {mesh.connectivity.size(), mesh.order.size(), mesh.shape.size(), mesh.keeps_order}});
         mesh_ids_.push_back(reader_.mesh_id());
         break;
       }

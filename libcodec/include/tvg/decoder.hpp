@@ -26,8 +26,9 @@ struct GopInfo {
   std::uint64_t first_frame = 0;   ///< position in the stream
   std::uint64_t source_frame = 0;  ///< number of its first frame in the sequence that was encoded
   std::uint32_t frame_count = 0;
-  int fine_bits = 0;    ///< B2
-  int coarse_bits = 0;  ///< B1
+  std::array<bool, 4> predictors{};  ///< [Predictor]: whether frames may have it
+  int fine_bits = 0;                 ///< B2
+  int coarse_bits = 0;               ///< B1
   std::array<double, 3> origin{};
   double step = 0;                 ///< of the fine lattice, in the mesh's units
   std::uint32_t flagged = 0;       ///< number of important vertices; all of them when the bits are equal
@@ -47,6 +48,7 @@ struct ChunkInfo {
 struct MeshInfo {
   std::uint64_t connectivity_bytes = 0;
   std::uint64_t order_bytes = 0;
+  std::uint64_t shape_bytes = 0;   ///< of the reference shape
   bool keeps_vertex_order = true;  ///< frames come in the order of the encoder's input
 };
 

@@ -257,7 +257,9 @@ typedef struct tvg_encoder tvg_encoder;
 typedef enum tvg_predictor {
   TVG_PREDICTOR_SPACE = 0,
   TVG_PREDICTOR_TIME = 1,
-  TVG_PREDICTOR_ELP = 2
+  TVG_PREDICTOR_ELP = 2,
+  TVG_PREDICTOR_PYRAMID = 3, /* along the surface, coarse to fine: smaller files, slower */
+  TVG_PREDICTOR_AUTO = 255   /* for an encoder: elp or pyramid, whichever is smaller in a frame */
 } tvg_predictor;
 
 /* How to encode. New members stand at its end and mean what was before when they are 0. */

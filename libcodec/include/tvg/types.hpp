@@ -137,6 +137,9 @@ enum class Predictor : std::uint8_t {
   kSpace = 0,  ///< the parallelogram of the gate in the same frame
   kTime = 1,   ///< the same vertex in the frame before
   kElp = 2,    ///< Extended Lorenzo: the parallelogram of the motion (the paper's Eq. 9)
+  /// The mean of neighbours along the surface, coarse to fine, and how the vertex missed it before.
+  kPyramid = 3,
+  kAuto = 255,  ///< for an encoder: for each frame elp or pyramid, whichever takes fewer bytes
 };
 
 /// Meshes that may be in force at once (format-spec §4.1).
@@ -162,6 +165,13 @@ constexpr std::uint64_t decoder_memory_needed(const StreamLimits& limits) {
   const std::uint64_t further_meshes = limits.meshes > 0 ? limits.meshes - 1 : 0;
   return (std::uint64_t{1} << 20) + 160 * vertices + 96 * faces + 4 * std::uint64_t{limits.packet_bytes} +
          limits.mesh_bytes + further_meshes * (512 + 24 * vertices + 16 * faces);
+}
+
+/// The same where meshes have reference shapes, from which the pyramid is made that frames may be predicted
+/// along.
+constexpr std::uint64_t decoder_memory_with_shapes(const StreamLimits& limits) {
+  const std::uint64_t vertices = limits.vertices, faces = limits.faces;
+  return decoder_memory_needed(limits) + vertices * (400 + 128 * std::uint64_t{limits.meshes}) + 96 * faces;
 }
 
 /// What the head of a stream says.

@@ -1,0 +1,24 @@
+#pragma once
+#include "connectivity/mesh_coder.hpp"
+#include "container/mesh_payload.hpp"
+#include "prediction/pyramid.hpp"
+
+#include <cstdint>
+#include <optional>
+
+#include <tvg/types.hpp>
+
+namespace tvg {
+
+/// A mesh as its GOPs need it, on either side.
+struct GopMesh {
+  CodedMesh coded;
+  std::optional<Pyramid> pyramid;  ///< where the mesh has a reference shape
+};
+
+/// Decodes a mesh from the sections of its chunk (format-spec §4.3). `limits` are the stream's:
+/// kLimitExceeded where the mesh has a reference shape and the memory that is declared does not allow for
+/// that (§8.2).
+Result<GopMesh> decode_gop_mesh(const MeshLayout& layout, std::uint32_t id, const StreamLimits& limits);
+
+}  // namespace tvg

@@ -1,0 +1,23 @@
+#pragma once
+#include "connectivity/mesh_coder_encode.hpp"
+#include "modes/gop_mesh.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tvg {
+
+/// A mesh to be written: what its GOPs need, and the payload of its chunk.
+struct EncodedGopMesh {
+  GopMesh mesh;
+  std::vector<std::uint8_t> payload;
+};
+
+/// Without a reference shape.
+EncodedGopMesh finish_mesh(EncodedMesh encoded);
+/// With one: the first frame, positions [vertex][xyz] in the order of the input, on a lattice of so many bits
+/// over its own box.
+Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, int bits);
+
+}  // namespace tvg
