@@ -13,7 +13,7 @@ struct MeshLayout {
   std::uint32_t vertex_count, face_count;
   bool keeps_order;  ///< there is a section with the vertex order; otherwise it was given up
   Bytes connectivity, order;
-  Bytes shape;  ///< the reference shape; empty where there is none
+  Bytes shape = {};  ///< the reference shape; empty where there is none
 };
 std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh);
 /// kUnsupported where there is a section that this version does not know and must.

@@ -95,7 +95,10 @@ TEST(Allocation, FrameLoopMakesNoneOnceAGopHasBegun) {
       options.fine_bits = fine;
       options.coarse_bits = coarse;
       options.gop_frames = 8;
-      EXPECT_EQ(allocations_in_frame_loop(encode_sequence(sequence, options)), 0u) << name << ' ' << fine;
+      for (const Predictor predictor : {Predictor::kElp, Predictor::kPyramid}) {
+        options.predictor = predictor;
+        EXPECT_EQ(allocations_in_frame_loop(encode_sequence(sequence, options)), 0u) << name << ' ' << fine;
+      }
     }
   }
 }

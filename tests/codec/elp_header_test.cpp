@@ -16,6 +16,10 @@ Lattice some_lattice() {
   return {.origin = {-1.5, 0, 2}, .step = 0.125, .fine_bits = 13, .coarse_bits = 11};
 }
 
+PredictorSet all_predictors() {
+  return PredictorSet(15);
+}
+
 Result<ElpHeader> read(Bytes fields) {
   GopHeader header;
   header.fields = fields;
@@ -29,13 +33,13 @@ Buffer with_channels(const std::vector<std::uint64_t>& channels) {
   ByteWriter writer;
   writer.varint(channels.size());
   for (const std::uint64_t channel : channels) writer.varint(channel);
-  writer.bytes(Bytes(write_elp_header(some_lattice(), {})).subspan(2));
+  writer.bytes(Bytes(write_elp_header(all_predictors(), some_lattice(), {})).subspan(2));
   return writer.take();
 }
 
 TEST(ElpHeader, ComesBack) {
   const Buffer flags = {8, 9};
-  const Buffer fields = write_elp_header(some_lattice(), flags);
+  const Buffer fields = write_elp_header(all_predictors(), some_lattice(), flags);
   const Result<ElpHeader> back = read(fields);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->lattice, some_lattice());
@@ -63,13 +67,26 @@ TEST(ElpHeader, EveryFieldOutOfRangeIsRefused) {
   for (const auto& [name, fault] : faults) {
     Lattice lattice = some_lattice();
     fault(lattice);
-    const Result<ElpHeader> refused = read(write_elp_header(lattice, {}));
+    const Result<ElpHeader> refused = read(write_elp_header(all_predictors(), lattice, {}));
     ASSERT_FALSE(refused) << name;
     EXPECT_EQ(refused.error().code, ErrorCode::kMalformed) << name;
   }
   Lattice one = some_lattice();
   one.coarse_bits = one.fine_bits;
-  EXPECT_FALSE(read(write_elp_header(one, Buffer{0}))) << "flags of one lattice";
+  EXPECT_FALSE(read(write_elp_header(all_predictors(), one, Buffer{0}))) << "flags of one lattice";
+}
+
+TEST(ElpHeader, PredictorsThatAreNotKnownAreUnsupportedAndOneIsForTheFirstFrame) {
+  const auto code = [](std::uint8_t predictors) {
+    const Result<ElpHeader> header = read(write_elp_header(PredictorSet(predictors), some_lattice(), {}));
+    return header ? ErrorCode::kIo : header.error().code;
+  };
+  EXPECT_EQ(code(0x10), ErrorCode::kUnsupported);
+  EXPECT_EQ(code(0x81), ErrorCode::kUnsupported);
+  EXPECT_EQ(code(0), ErrorCode::kMalformed);
+  EXPECT_EQ(code(0x06), ErrorCode::kMalformed) << "time and elp need a frame before";
+  EXPECT_EQ(code(0x01), ErrorCode::kIo);
+  EXPECT_EQ(code(0x08), ErrorCode::kIo);
 }
 
 TEST(ElpHeader, ChannelsThatAreNotKnownAreSkippedOrUnsupportedByTheirNumber) {

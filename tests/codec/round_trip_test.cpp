@@ -84,7 +84,8 @@ TEST(Codec, LatticeOfEveryVertexIsTheEncodersOnEverySortOfMesh) {
     if (named.mesh.vertex_count == 0) continue;
     SCOPED_TRACE(named.name);
     const Sequence sequence = random_sequence(named.mesh, 5, random);
-    for (const Predictor predictor : {Predictor::kSpace, Predictor::kTime, Predictor::kElp}) {
+    for (const Predictor predictor : {Predictor::kSpace, Predictor::kTime, Predictor::kElp, Predictor::kPyramid,
+                                      Predictor::kAuto}) {
       EncodeOptions options;
       options.predictor = predictor;
       options.gop_frames = 3;
@@ -103,7 +104,7 @@ TEST(Codec, LatticeComesBackAtEveryNumberOfBits) {
       EncodeOptions options;
       options.fine_bits = fine;
       options.coarse_bits = coarse;
-      options.predictor = static_cast<Predictor>(fine % 3);
+      options.predictor = static_cast<Predictor>(fine % 4);
       ASSERT_NO_FATAL_FAILURE(expect_lattice_back(sequence, options));
     }
   }

@@ -152,6 +152,21 @@ Stream make_reordered() {
   return encode_sequence(corpus_sequence("soup", 3), options);
 }
 
+Stream make_pyramid_soup() {
+  EncodeOptions options = options_of(6, 6, Predictor::kPyramid, 50);
+  options.keep_vertex_order = false;
+  return encode_sequence(corpus_sequence("soup", 3), options);
+}
+
+/// Still for a while, then shaken, so that now one predictor is the better and now the other.
+Stream make_auto() {
+  Sequence sequence = corpus_sequence("cloth", 12);
+  for (std::size_t f = 1; f < sequence.frames.size(); ++f) {
+    if (f % 4 == 1) sequence.frames[f] = sequence.frames[f - 1];
+  }
+  return encode_sequence(sequence, options_of(5, 5, Predictor::kAuto, 12));
+}
+
 Stream make_step() {
   EncodeOptions options = options_of(4, 2, Predictor::kElp, 3);
   options.step = 0.125;
@@ -224,6 +239,12 @@ const std::vector<ConformanceStream>& conformance_streams() {
        [] {
          return join({make_uniform("cloth", 2, 6, Predictor::kElp), make_step()});
        }},
+      {"pyramid", "predictor pyramid from the first frame on, several GOPs",
+       [] { return encode_sequence(corpus_sequence("cloth", 5), options_of(7, 7, Predictor::kPyramid, 3)); }},
+      {"pyramid_hybrid", "predictor pyramid, two lattices",
+       [] { return encode_sequence(corpus_sequence("cloth", 3), options_of(8, 6, Predictor::kPyramid, 50)); }},
+      {"pyramid_soup", "the pyramid of all that a mesh can do wrong, its order given up", make_pyramid_soup},
+      {"auto", "frames predicted by elp and by the pyramid by turns", make_auto},
       {"meshes_again", "two meshes in force, meshes that come again", make_meshes_again},
       {"unknown_chunk", "an ancillary chunk of a type that nobody knows",
        [] {

@@ -130,8 +130,9 @@ TEST(ReferenceShape, BothSidesOfAMeshHaveTheSameFacesForIt) {
     const Sequence sequence = entry.make({1500, 1}).sequence;
     for (const bool keep_order : {true, false}) {
       SCOPED_TRACE(std::string(entry.name));
-      const EncodedMesh encoded = encode_mesh(sequence.mesh, keep_order);
-      const auto layout = read_mesh(encoded.payload);
+      EncodedMesh encoded = encode_mesh(sequence.mesh, keep_order);
+      const std::vector<std::uint8_t> payload = mesh_payload(encoded);
+      const auto layout = read_mesh(payload);
       ASSERT_TRUE(layout);
       const auto decoded = decode_mesh(*layout, encoded.coded.id);
       ASSERT_TRUE(decoded);
