@@ -24,8 +24,8 @@ constexpr Predictor predictor_of(std::uint32_t frame, Predictor asked) {
   return frame == 0 && asked != Predictor::kPyramid ? Predictor::kSpace : asked;
 }
 
-/// Codes the frame whose indices `positions` holds, for both directions; false where a decoded index lies
-/// outside its lattice. `along_pyramid` is there where frames of the GOP may be predicted so.
+/// Codes the frame whose indices `positions` holds (§7.5, §7.7), for both directions; false where a decoded
+/// index lies outside its lattice. `along_pyramid` is there where frames of the GOP may be predicted so.
 template <class Coder>
 bool code_frame(Coder& coder, Predictor predictor, PositionCoder& positions,
                 std::optional<PyramidCoder>& along_pyramid) {

@@ -13,7 +13,7 @@ namespace tvg {
 /// A mesh as its GOPs need it, on either side.
 struct GopMesh {
   CodedMesh coded;
-  std::optional<Pyramid> pyramid;  ///< where the mesh has a reference shape
+  std::optional<Pyramid> pyramid;  ///< where the mesh has a reference shape (§5.4)
 };
 
 /// Decodes a mesh from the sections of its chunk (format-spec §4.3). `limits` are the stream's:

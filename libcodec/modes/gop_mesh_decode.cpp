@@ -6,7 +6,7 @@
 
 namespace tvg {
 
-// format-spec §4.3, §5.3
+// format-spec §4.3, §5.3, §5.4
 Result<GopMesh> decode_gop_mesh(const MeshLayout& layout, std::uint32_t id, const StreamLimits& limits) {
   Result<CodedMesh> coded = decode_mesh(layout, id);
   if (!coded) return coded.error();

@@ -98,6 +98,7 @@ class PyramidCoder {
     return mean;
   }
 
+  // format-spec §7.7.3
   void take_details(std::uint32_t v, const Quad& index, const Quad& mean) {
     Quad details{};
     for (std::size_t plane = 0; plane < 3; ++plane)
@@ -111,6 +112,7 @@ class PyramidCoder {
     return (Lanes(shifted(planes[pyramid_->order[turn - 1]], shift)) << kDetailBits).quad();
   }
 
+  // format-spec §7.7.1
   template <class Coder>
   std::uint32_t code_vertex(Coder& coder, std::span<Quad> planes, std::size_t turn) {
     const std::uint32_t v = pyramid_->order[turn];
@@ -176,6 +178,7 @@ class PyramidCoder {
     return sizes;
   }
 
+  // format-spec §7.7.4
   static std::uint32_t expected_size(std::int32_t level, std::int32_t beside, std::int32_t before,
                                      std::int32_t other, bool first, bool alone) {
     if (first && alone) return 200 * kCell;

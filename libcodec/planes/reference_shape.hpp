@@ -17,7 +17,7 @@ struct ReferenceShape {
   static constexpr int kMostBits = 24;
   static constexpr std::uint32_t kFewestNeighbours = 4, kMostNeighbours = 16;
 
-  std::array<double, 3> origin{};                    ///< [xyz], finite, in mesh units: where index 0 lies
+  std::array<double, 3> origin{};                    ///< [xyz], finite, in mesh units: the smallest corner
   double step = 1;                                   ///< finite and above 0, in mesh units
   int bits = 1;                                      ///< 1 to kMostBits: indices lie in [0, 2^bits)
   std::uint32_t neighbours = kFewestNeighbours;      ///< of a vertex in the pyramid

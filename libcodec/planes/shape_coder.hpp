@@ -68,6 +68,7 @@ class ShapeCoder {
     std::int32_t count() const { return sum[3]; }
   };
 
+  // format-spec §5.3.3
   template <class Coder>
   bool code_vertex(Coder& coder, std::uint32_t v, Position& position) {
     const std::span<const std::uint32_t> ring = surroundings_.ring(v);

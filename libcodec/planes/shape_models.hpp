@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-// How a reference shape's residual is coded (format-spec §5.3): a 16-symbol alphabet under the mean of two
+// How a reference shape's residual is coded (format-spec §5.3.4): a 16-symbol alphabet under the mean of two
 // adaptive models, which begin with the distribution that the expected size lets expect.
 namespace tvg {
 

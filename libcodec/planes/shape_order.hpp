@@ -10,9 +10,9 @@
 
 namespace tvg {
 
-/// The order in which a shape's vertices are coded (format-spec §5.3): next is who has most neighbours among
-/// those that are coded, of equal ones who has waited longest with so many; where nobody has any, the first
-/// that is left.
+/// The order in which a shape's vertices are coded (format-spec §5.3.2): next is who has most neighbours
+/// among those that are coded, of equal ones who has waited longest with so many; where nobody has any, the
+/// first that is left.
 class ShapeOrder {
  public:
   static constexpr std::size_t kBytesPerVertex = 2 * sizeof(std::uint32_t) + 1;

@@ -16,7 +16,7 @@ struct WingSums {
 };
 
 /// Learns how far beyond the edges a vertex lies: at M + c (M - O), M the mean of the edges' middles and O
-/// that of the vertices across (format-spec §5.3). A parallelogram has c = 1; a rough surface is best
+/// that of the vertices across (format-spec §5.3.5). A parallelogram has c = 1; a rough surface is best
 /// predicted with less, the more so the more parallelograms there are. A regression that weighs each vertex
 /// by its error's inverse, so that single spikes do not rule it.
 class ShapeReach {

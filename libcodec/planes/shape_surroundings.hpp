@@ -12,7 +12,7 @@
 namespace tvg {
 
 /// What a vertex is predicted from: the vertices it shares an edge with, and the parallelograms it closes
-/// (format-spec §5.3). They depend on which faces there are, not on their order.
+/// (format-spec §5.3.1). They depend on which faces there are, not on their order.
 class ShapeSurroundings {
   /// A side of a face, at one end of its edge: the other end, and the face's third corner.
   struct Side {

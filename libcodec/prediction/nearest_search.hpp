@@ -8,7 +8,8 @@
 
 namespace tvg {
 
-/// Finds the nearest places along a graph, best first, with work and memory that no graph raises.
+/// Finds the nearest places along a graph, best first, with work and memory that no graph raises (format-spec
+/// §5.4.3).
 class NearestSearch {
  public:
   /// For graphs of up to so many places. False without memory.

@@ -57,6 +57,7 @@ class Builder {
   }
 
   /// Gives the last turns to what can be spared of the graph, and leaves the rest of it.
+  // format-spec §5.4.2
   bool remove_level() {
     if (!colour(graph_, by_rank_, colours_)) return false;
     const std::uint32_t most = *std::max_element(colours_.begin(), colours_.end());
@@ -120,6 +121,7 @@ class Builder {
 
 }  // namespace
 
+// format-spec §5.4
 Result<Pyramid> build_pyramid(std::span<const Face> faces, std::uint32_t vertex_count,
                               std::span<const ShapePoint> shape, std::uint32_t neighbours) {
   Pyramid pyramid;

@@ -7,7 +7,7 @@
 #include <tvg/types.hpp>
 
 // The pyramid: an order of the vertices from coarse to fine, and for each vertex the ones decoded before it
-// that are nearest along the surface, with weights that predict it from them.
+// that are nearest along the surface, with weights that predict it from them (format-spec §5.4).
 namespace tvg {
 
 /// Neighbours a vertex may be predicted from.
@@ -29,10 +29,10 @@ struct Pyramid {
   std::vector<std::int16_t> weight;
 };
 
-/// The pyramid of a mesh: the same on every machine. `faces` holds valid indices; `shape` is a position for
-/// each of the `vertex_count` vertices; `neighbours` is within its limits. Linear in the size of the mesh but
-/// for sorting, whatever the mesh; beside the result, at most 96 bytes for each vertex and 96 for each face.
-/// The only error is kOutOfMemory.
+/// The pyramid of a mesh (format-spec §5.4): the same on every machine. `faces` holds valid indices; `shape`
+/// is a position for each of the `vertex_count` vertices; `neighbours` is within its limits. Linear in the
+/// size of the mesh but for sorting, whatever the mesh; beside the result, at most 96 bytes for each vertex
+/// and 96 for each face. The only error is kOutOfMemory.
 Result<Pyramid> build_pyramid(std::span<const Face> faces, std::uint32_t vertex_count,
                               std::span<const std::array<std::int32_t, 3>> shape, std::uint32_t neighbours);
 

@@ -8,7 +8,8 @@
 namespace tvg {
 
 /// Pairs of vertices to link beside the edges of a mesh, so that one graph holds all of it: neighbours in the
-/// order of a space-filling curve that stand at one point of the shape, or belong to different components.
+/// order of a space-filling curve that stand at one point of the shape, or belong to different components
+/// (format-spec §5.4.1).
 class SpatialLinks {
  public:
   /// False without memory.

@@ -8,7 +8,7 @@
 #include <tvg/types.hpp>
 
 // The graphs that the pyramid's levels are found on: at first the edges of a mesh, then what is left of them
-// when the vertices of a finer level are drawn together with those that stay.
+// when the vertices of a finer level are drawn together with those that stay (format-spec §5.4.1, §5.4.2).
 namespace tvg {
 
 using ShapePoint = std::array<std::int32_t, 3>;

@@ -132,7 +132,7 @@ inline constexpr std::uint32_t kMaxVertexCount = 0x7FFFFFFF;
 /// Faces of one mesh (format-spec §5.1): their half-edges, three to a face, are numbered with 32 bits.
 inline constexpr std::uint32_t kMaxFaceCount = 1u << 30;
 
-/// How frames are predicted (format-spec §7.2).
+/// How frames are predicted (format-spec §7.2, §7.7).
 enum class Predictor : std::uint8_t {
   kSpace = 0,  ///< the parallelogram of the gate in the same frame
   kTime = 1,   ///< the same vertex in the frame before
@@ -168,7 +168,7 @@ constexpr std::uint64_t decoder_memory_needed(const StreamLimits& limits) {
 }
 
 /// The same where meshes have reference shapes, from which the pyramid is made that frames may be predicted
-/// along.
+/// along (format-spec §8.2).
 constexpr std::uint64_t decoder_memory_with_shapes(const StreamLimits& limits) {
   const std::uint64_t vertices = limits.vertices, faces = limits.faces;
   return decoder_memory_needed(limits) + vertices * (400 + 128 * std::uint64_t{limits.meshes}) + 96 * faces;
