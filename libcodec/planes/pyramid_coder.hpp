@@ -65,8 +65,10 @@ class PyramidCoder {
  private:
   static constexpr std::int32_t kCell = 256;  ///< sizes are in so many parts of a cell
   static constexpr std::int32_t kMostSize = 1 << 20;
-  /// Means and details stay within this, so that their sums stay within 32 bits.
-  static constexpr std::int32_t kMost = 1 << 29;
+  /// Bounds of means and of details, so that sums and differences stay within 32 bits. Means of indices of 24
+  /// bits reach the first in valid streams, details the second in damaged ones only.
+  static constexpr std::int32_t kMostMean = (1 << 30) - 1;
+  static constexpr std::int32_t kMostDetail = 1 << 29;
   /// 4096 / (1 + j): how much the size at the j-th neighbour counts.
   static constexpr std::array<std::int32_t, 8> kNearness = {4096, 2048, 1365, 1024, 819, 682, 585, 512};
 
@@ -94,7 +96,7 @@ class PyramidCoder {
     Quad mean{};
     for (std::size_t plane = 0; plane < 3; ++plane)
       mean[plane] =
-          static_cast<std::int32_t>(std::clamp<std::int64_t>((sum[plane] + 128) >> 8, -kMost, kMost));
+          static_cast<std::int32_t>(std::clamp<std::int64_t>((sum[plane] + 128) >> 8, -kMostMean, kMostMean));
     return mean;
   }
 
@@ -102,7 +104,7 @@ class PyramidCoder {
   void take_details(std::uint32_t v, const Quad& index, const Quad& mean) {
     Quad details{};
     for (std::size_t plane = 0; plane < 3; ++plane)
-      details[plane] = std::clamp((index[plane] << kDetailBits) - mean[plane], -kMost, kMost);
+      details[plane] = std::clamp((index[plane] << kDetailBits) - mean[plane], -kMostDetail, kMostDetail);
     details_.take(v, details, frames_);
   }
 
@@ -123,6 +125,7 @@ class PyramidCoder {
     Quad predicted = mean;
     if (!first) {
       predicted = (Lanes(mean) + Lanes(details_.expected(v, around))).quad();
+      for (std::int32_t& value : predicted) value = std::clamp(value, -kMostMean, kMostMean);
     } else if (around.empty()) {
       predicted = start(turn, planes, shift);
     }

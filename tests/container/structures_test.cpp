@@ -212,7 +212,8 @@ TEST(MeshChunk, CountsAndSectionsOutOfRangeAreRefused) {
   refused(read(5, 0x80000000, {connectivity}), ErrorCode::kMalformed, "§4.3");
   refused(read(5, 5, {{3, {0}}}), ErrorCode::kMalformed, "§4.3");
   refused(read(5, 5, {connectivity, connectivity}), ErrorCode::kMalformed, "§3.5");
-  refused(read(5, 5, {connectivity, {5, {}}}), ErrorCode::kUnsupported, "§4.3");
+  refused(read(5, 5, {connectivity, {5, {}}}), ErrorCode::kMalformed, "§5.3");
+  refused(read(5, 5, {connectivity, {7, {}}}), ErrorCode::kUnsupported, "§4.3");
   expect_refused(read_mesh(Buffer{5, 5, 1, 9, 1}), ErrorCode::kMalformed, "§4.3");
 }
 
