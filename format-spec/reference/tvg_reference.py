@@ -22,6 +22,9 @@ import os
 import struct
 import sys
 from bisect import bisect_left
+from collections import deque
+
+from tvg_pyramid import pyramid  # 5.4
 
 class Invalid(Exception):
     """The stream violates a section of the specification; error is one of those of §8.4."""
@@ -129,7 +132,7 @@ ORDER = {
 }
 LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30}  # §8.1, by key of §4.1
 MESH_ENTRY, PLAN_ENTRY, GOP_ENTRY = 1, 2, 3  # kinds of §4.6
-SPACE, TIME, ELP = 0, 1, 2  # predictors of §7.2
+SPACE, TIME, ELP, PYRAMID = 0, 1, 2, 3  # predictors of §7.2 and §7.7
 
 def unknown_text(key):
     """3.5: what is even may be skipped."""
@@ -137,8 +140,9 @@ def unknown_text(key):
 
 class Mesh:
     """A mesh in force (4.3); number: that of its latest entry of the index among the meshes', from 1."""
-    def __init__(self, V, faces, gates, order):
+    def __init__(self, V, faces, gates, order, turns):
         self.V, self.gates, self.order, self.number = V, gates, order, 0
+        self.turns = turns  # of the pyramid (5.4); None without a reference shape
         self.faces = [tuple(order[corner] for corner in face) for face in faces]  # in output order
 
 class Decoder:
@@ -226,6 +230,8 @@ class Decoder:
         memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes + self.mesh_bytes
         memory += (self.meshes_in_force - 1) * (512 + 24 * self.vertices + 16 * self.faces)
         require(bounds[9] >= memory, "4.1", "decoder_memory")
+        shapes = (400 + 128 * self.meshes_in_force) * self.vertices + 96 * self.faces
+        self.room_for_shapes = bounds[9] >= memory + shapes
         for key, limit in LIMITS.items():
             require(bounds[key] <= limit, "8.1", f"key {key}: more than this decoder allows", "limit-exceeded")
 
@@ -266,11 +272,15 @@ class Decoder:
             last = kind
         require(1 in sections, "4.3", "no connectivity")
         for kind in sections:
-            require(kind in (1, 3) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+            require(kind in (1, 3, 5) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+        require(5 not in sections or self.room_for_shapes, "8.2", "decoder_memory is too little for shapes",
+                "limit-exceeded")
         require(V + F <= 128 * len(sections[1]) and F <= 2 ** 30, "5.1", "too many vertices or faces",
                 "limit-exceeded")
         faces, gates = Connectivity(RangeDecoder(sections[1], "5.1"), V, F).decode()
-        return Mesh(V, faces, gates, vertex_order(sections[3], gates) if 3 in sections else list(range(V)))
+        order = vertex_order(sections[3], gates) if 3 in sections else list(range(V))
+        turns = pyramid(faces, *reference_shape(sections[5], faces, V)) if 5 in sections else None
+        return Mesh(V, faces, gates, order, turns)
 
     def entries(self, kind):
         """How many entries of a kind the index has so far."""
@@ -299,7 +309,8 @@ class Decoder:
         self.index.append((GOP_ENTRY, offset, fields))
         header.elp(mesh)
 
-        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits)
+        turns = mesh.turns if header.predictors >> PYRAMID & 1 else None
+        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits, turns)
         hashed, digested, decoded = bytearray(), False, 0
         while number < header.packet_count:
             number += 1
@@ -313,9 +324,10 @@ class Decoder:
                 digested = True
                 continue
             require(kind != 0, "4.5", "a second header")
-            require(32 <= kind <= 34, "4.5", f"packets of kind {kind} are not known", "unsupported")
+            require(32 <= kind <= 35, "4.5", f"packets of kind {kind} are not known", "unsupported")
             require(decoded < header.frame_count, "4.5", "more frames than frame_count")
-            require(decoded > 0 or kind == 32, "4.5.2", "the first frame is not predicted by space")
+            require(header.predictors >> kind - 32 & 1, "4.5.2", "a predictor that the header does not name")
+            require(decoded > 0 or kind in (32, 35), "4.5.2", "nothing is there to predict the first frame from")
             frames.frame(RangeDecoder(header.positions(content), "7.5"), kind - 32)
             decoded += 1
             hashed += b"".join(struct.pack("<3i", *index) for index in frames.X)
@@ -432,6 +444,10 @@ class Header:
         self.channels = [reader.varint() for _ in range(count)]
         require(all(a < b for a, b in zip(self.channels, self.channels[1:])), "3.5", "channels do not ascend")
         require(self.channels[0] == 1, "4.5.1", "the first channel is not positions")
+        self.predictors = reader.unsigned(1)
+        require(self.predictors < 16, "4.5.1", f"predictors {self.predictors}", "unsupported")
+        require(self.predictors & (1 << SPACE | 1 << PYRAMID), "4.5.1", "nothing can predict the first frame")
+        require(mesh.turns or not self.predictors >> PYRAMID, "4.5.1", "the mesh has no reference shape")
         self.fine_bits, self.coarse_bits = reader.unsigned(1), reader.unsigned(1)
         require(1 <= self.fine_bits <= 24, "4.5.1", "fine_bits")
         require(1 <= self.coarse_bits <= self.fine_bits, "4.5.1", "coarse_bits")
@@ -653,6 +669,162 @@ def uniform_order(coder, gates, unused):
 
     return [unused.pop(uniform(len(unused))) for _ in gates]
 
+# 5.3 Reference shape
+def reference_shape(data, faces, V):
+    """Returns the lattice indices of the vertices, and how many neighbours one has in the pyramid."""
+    reader = Reader(data, "5.3")
+    bits, neighbours = reader.unsigned(1), reader.unsigned(1)
+    origin, step = [reader.f64() for _ in range(3)], reader.f64()
+    require(1 <= bits <= 24, "5.3", "bits")
+    require(4 <= neighbours <= 16, "5.3", "neighbours")
+    require(all(map(math.isfinite, origin)), "5.3", "origin")
+    require(math.isfinite(step) and step > 0, "5.3", "step")
+    return ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode(), neighbours
+
+def rings_and_wings(faces, V):
+    """For each vertex its neighbours, and the edges that it lies across from, with the vertex beyond: (a, b, o)."""
+    rings, wings, thirds = [set() for _ in range(V)], [[] for _ in range(V)], {}
+    for face in faces:
+        if len(set(face)) == 3:
+            for third in face:
+                a, b = sorted(set(face) - {third})
+                thirds.setdefault((a, b), set()).add(third)
+    for (a, b), across in sorted(thirds.items()):
+        rings[a].add(b)
+        rings[b].add(a)
+        if len(across) == 2:
+            t, u = across
+            wings[t].append((a, b, u))
+            wings[u].append((a, b, t))
+    return [sorted(ring) for ring in rings], wings
+
+def thirds_of_octaves(x):
+    """T(x): which third of an octave x is in."""
+    q = x.bit_length() - 1
+    m = 256 * x // 2 ** q
+    return 3 * q + (m >= 323) + (m >= 406)
+
+FALL = (359, 452, 570, 718, 904, 1139, 1434, 1805, 2270, 2852, 3577, 4476, 5580, 6918, 8508, 10348, 12406, 14616, 16885,
+        19111, 21207, 23109)
+
+def shape_model(level):
+    """M(level)."""
+    fall, shares = FALL[level], [2 ** 20]
+    for _ in range(8):
+        shares.append(shares[-1] * fall // 2 ** 15)
+    shares = shares[7:0:-1] + shares[:8] + [2 * shares[8] * 2 ** 15 // (32768 - fall)]
+    return Symbol(weights=scaled(shares))
+
+class Reach:
+    """How far a vertex lies beyond an edge, to go by those before it."""
+    def __init__(self):
+        self.product = self.square = 2 ** 14
+        self.c = 256
+
+    def learn(self, n, E, O, point, sh):
+        o = [e - 2 * across >> sh for e, across in zip(E, O)]
+        y = [2 * n * x - e >> sh for e, x in zip(E, point)]
+        W = 2 ** 20 // (2 * n + sum(abs(b - (a * self.c >> 8)) for a, b in zip(o, y)))
+        self.product += (sum(a * b * W for a, b in zip(o, y)) >> 16) - (self.product >> 7)
+        self.square = max(256, self.square + (sum(a * a * W for a in o) >> 16) - (self.square >> 7))
+        self.c = clamp(256 * self.product // self.square, 0, 384)
+
+class ReferenceShape:
+    """The points of a reference shape, as they are decoded."""
+    def __init__(self, coder, faces, V, bits):
+        self.coder, self.V, self.bits = coder, V, bits
+        self.rings, self.wings = rings_and_wings(faces, V)
+        self.point, self.residuals, self.before = [None] * V, [None] * V, None
+        self.running, self.reach = [2 ** bits] * 3, [Reach() for _ in range(9)]
+        self.first = [[[shape_model(level) for _ in range(3)] for level in range(22)] for _ in range(2)]
+        self.second = [[shape_model(min(21, 2 * ctx + 10 + (5 if kind == 0 else 0))) for ctx in range(16)]
+                       for kind in range(4)]
+        self.longer, self.top = [[Bit() for _ in range(26)] for _ in range(2)], [Bit() for _ in range(17)]
+
+    def decode(self):
+        for v in self.order():
+            self.vertex(v)
+            self.before = v
+        self.coder.finish()
+        return self.point
+
+    def order(self):
+        """Each vertex in its turn; the one before has been coded by then."""
+        standing, queues, lowest = [0] * self.V, [deque() for _ in range(16)], 0
+        for _ in range(self.V):
+            v = None
+            for place in range(15, 0, -1):
+                while v is None and queues[place]:
+                    u = queues[place].popleft()
+                    v = u if standing[u] == place and self.point[u] is None else None  # else it has left the queue
+            while v is None and self.point[lowest] is not None:
+                lowest += 1
+            v = lowest if v is None else v
+            yield v
+            for u in self.rings[v]:
+                if self.point[u] is None and standing[u] < 15:
+                    standing[u] += 1
+                    queues[standing[u]].append(u)
+
+    def vertex(self, v):
+        wings = [wing for wing in self.wings[v][:12] if all(self.point[w] is not None for w in wing)]
+        ring = [u for u in self.rings[v][:64] if self.point[u] is not None]
+        n, r, reach = len(wings), len(ring), self.reach[min(len(wings), 8)]
+        E, O, P = ([sum(self.point[w][k] for w in vertices) for k in range(3)] for vertices in (
+            [w for wing in wings for w in wing[:2]], [wing[2] for wing in wings], ring))
+        point, residuals = [], []
+        for k in range(3):
+            # Guess
+            if n > 0:
+                S, count = (E[k] * (256 + reach.c) - 2 * reach.c * O[k]) // 128, 4 * n
+            elif r > 0:
+                S, count = P[k], r
+            else:
+                S, count = 2 ** (self.bits - 1) if self.before is None else self.point[self.before][k], 1
+            total = clamp(S, 0, count * (2 ** self.bits - 1))
+            p = (2 * total + count) // (2 * count)
+            # Choice
+            around = self.running[k]
+            if r > 0:
+                around = sum(abs(self.residuals[u][k]) for u in ring) * (65536 // r) // 256
+            same = 256 * sum(map(abs, residuals)) // k if k > 0 else around
+            size = (5 * self.running[k] + 6 * around + 5 * same) * (3 if n == 0 else 1) // 16
+            d = self.residual(p, size, around, (total - p * count, count), min(n, 3))
+            require(0 <= p + d < 2 ** self.bits, "5.3", "an index outside the lattice")
+            point.append(p + d)
+            residuals.append(d)
+            if n > 0:
+                self.running[k] += (256 * abs(d) - self.running[k]) // 32
+        self.point[v], self.residuals[v] = point, residuals
+        if n > 0:
+            reach.learn(n, E, O, point, max(0, self.bits - 12))
+
+    def residual(self, p, size, around, rest, kind):
+        """The residual of a guess p. rest: what rounding left, and of how many."""
+        raw = 0
+        while size > 640:
+            size, raw = size >> 1, raw + 1
+        level, (left, count) = thirds_of_octaves(max(size, 5)) - 6, rest
+        lost = 2 if 8 * abs(left) >= 3 * count else 1 if 8 * abs(left) >= count else 0
+        near = min(around >> raw, 2 ** 30)
+        ctx = 0 if near < 77 else min(15, 1 + (thirds_of_octaves(near) - 18) // 2)
+        return self.value(p, raw, left < 0, self.first[raw > 0][level][lost], self.second[kind][ctx])
+
+    def value(self, _, raw, mirrored, first, second):
+        s = self.coder.symbol(first, second)
+        w = s - 7
+        if s == 15:
+            negative, length = self.coder.raw(1), 0
+            while length < 26 and self.coder.bit(self.longer[raw > 0][length]):
+                length += 1
+            w = min(2 ** length + self.coder.bits(length) + 7, 2 ** 27)
+            w = -w if negative else w
+        t = w
+        if raw > 0:
+            low = self.coder.bit(self.top[clamp(w, -8, 8) + 8]) << raw - 1
+            t = clamp(w * 2 ** raw + low + self.coder.bits(raw - 1), -2 ** 27, 2 ** 27)
+        return -t if mirrored else t
+
 # 6. Entropy coding
 class RangeDecoder:
     """6.1 The range coder. user: the section whose stream this is, for messages."""
@@ -738,19 +910,23 @@ class Bit:
         self.slow += -(self.slow >> r) if bit else (0xFFFF - self.slow) >> r
         self.count = min(self.count + 1, 12)
 
-def start(weights):
-    """The first state of an adaptive symbol with 16 weights that sum up to one of N, or to 65535."""
-    return [(2 ** 15 - 64) * sum(weights[:i]) // sum(weights) for i in range(16)]
+def start(weights, whole):
+    """The first state of an adaptive symbol with 16 weights, of a whole."""
+    return [(2 ** 15 - 64) * sum(weights[:i]) // whole for i in range(16)]
 
-EVEN = {N: start([1] * N + [0] * (16 - N)) for N in range(2, 17)}
+def scaled(shares):
+    """Weights in the proportion of the shares."""
+    return [share * 65535 // sum(shares) for share in shares]
+
+EVEN = {N: start([1] * N + [0] * (16 - N), N) for N in range(2, 17)}
 
 class Symbol:
     """An adaptive symbol: of N equally likely ones, or with 16 weights."""
     S = 2 ** 15 - 64
 
-    def __init__(self, N=16, weights=None):
-        self.count = 0
-        self.c = start(weights) if weights else EVEN[N][:]
+    def __init__(self, N=16, weights=None, count=0):
+        self.count = count
+        self.c = start(weights, 65535) if weights else EVEN[N][:]
 
     def adapt(self, s):
         rate = 2 + (self.count >= 2) + (self.count >= 6) + (self.count >= 16) + (self.count >= 32)
@@ -771,6 +947,7 @@ class Level:
         self.first, self.second = [Symbol(16) for _ in range(15)], [Symbol(16) for _ in range(15)]
         self.longer = [Bit() for _ in range(27)]
 
+RAW = (0,) * 11 + (1, 1, 2, 2, 3)  # k of §7.3.2, by level
 THRESHOLDS = (2, 3, 6, 9, 12, 18, 24, 33, 45, 60, 81, 108, 144, 190, 252)
 
 def sgn2(x):
@@ -784,29 +961,39 @@ def half(x):
     return x // 2 if x >= 0 else -(-x // 2)
 
 class Frames:
-    """The frames of one GOP."""
-    def __init__(self, gates, fine, fine_bits, coarse_bits):
+    """The frames of one GOP. turns: of the pyramid, where frames may be predicted along it."""
+    def __init__(self, gates, fine, fine_bits, coarse_bits, turns=None):
         self.gates, self.fine = gates, fine
         self.B2, self.D = fine_bits, fine_bits - coarse_bits
         self.shift = [0 if is_fine else self.D for is_fine in fine]
         self.X, self.before = None, None  # padded indices of this frame and of the one before
         self.R = [[0, 0, 0] for _ in gates]
         self.levels = {}  # by set and level, made when they are first used
+        self.pyramid = PyramidFrames(self, turns) if turns else None
 
     def frame(self, coder, predictor):
         """7.5 A frame, from a range-coder stream."""
         self.before, self.X, self.predictor = self.X, [[0, 0, 0] for _ in self.gates], predictor
+        if predictor == PYRAMID:
+            self.pyramid.frame(coder)
+        else:
+            self.frame_by_gates(coder)
+        coder.finish()
+        if self.pyramid:
+            self.pyramid.end(predictor)
+
+    def frame_by_gates(self, coder):
         for v, shift in enumerate(self.shift):
             for axis in range(3):
                 prediction, model_set, activity, first, second = self.predict(v, axis)
                 level = sum(activity >= threshold for threshold in THRESHOLDS)
                 if (model_set, level) not in self.levels:
                     self.levels[model_set, level] = Level()
-                value = residual(coder, level, self.levels[model_set, level], first, second)
+                models = self.levels[model_set, level]
+                value = residual(coder, RAW[level], models.first[first], models.second[second], models.longer)
                 index = prediction + value
                 require(0 <= index < 2 ** (self.B2 - shift), "7.5", "an index outside its lattice")
                 self.X[v][axis], self.R[v][axis] = index << shift, value << shift
-        coder.finish()
 
     def predict(self, v, axis):
         """Prediction, set, activity, first and second for a vertex in an axis."""
@@ -861,11 +1048,10 @@ class Frames:
                 second = 3 * sgn2(half(pull + (pull > 0))) + sgn1(half(R_v))
         return prediction, model_set, activity, first, second
 
-def residual(coder, level, models, first, second):
+def residual(coder, k, first, second, longer):
     """7.3.2 The value."""
-    k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
-    s = coder.symbol(models.first[first], models.second[second])
-    high = s - 7 if s < 15 else escape(coder, models.longer)
+    s = coder.symbol(first, second)
+    high = s - 7 if s < 15 else escape(coder, longer)
     return high if k == 0 else clamp(high * 2 ** k + coder.raw(k), -2 ** 27, 2 ** 27)
 
 def escape(coder, longer):
@@ -874,6 +1060,158 @@ def escape(coder, longer):
         length += 1
     size = min(2 ** length + coder.bits(length) + 7, 2 ** 27)
     return -size if negative else size
+
+# 7.7 Frames along the pyramid
+NEAR = (4096, 2048, 1365, 1024, 819, 682, 585, 512)
+PLACES = (51, 72, 102, 145, 205, 290, 410, 579, 819)
+PLACE_SIZES = (26, *PLACES)
+SLOW = (65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192, 7281, 6553)
+SHARE = (13107, 7281, 5041, 3855, 3120, 2621, 2259)
+EIGHTHS = (65536, 60097, 55109, 50535, 46341, 42495, 38968, 35734)
+
+def trunc(a, b):
+    """trunc(a / b), b above 0."""
+    return a // b if a >= 0 else -(-a // b)
+
+def sixteenths(x):
+    """The logarithm of x, in sixteenths."""
+    q = x.bit_length() - 1
+    return 16 * q + ((x << 4 >> q) & 15)
+
+def third(x):
+    q = x.bit_length() - 1
+    m = (x << 6 >> q) & 63
+    return 3 * q + (m >= 17) + (m >= 37)
+
+def size_level(size):
+    """Which of the models by size, 0 to 27."""
+    return clamp(third(size | 1) - third(5), 0, 27)
+
+def place_of(size):
+    return sum(size >= threshold for threshold in PLACES)
+
+def pyramid_model(size):
+    factor, value, shares = 65536 // (256 + size) * size + 256, 65536, [0] * 16
+    for r in range(8):
+        shares[7 + r] = shares[7 - r] = value + 16
+        value = value * factor >> 16
+    shares[15] = value + 16
+    return Symbol(weights=scaled(shares), count=6)
+
+def size_of(level):
+    size = next(size for size in range(5, 2 ** 12) if size_level(size) >= level)
+    return size + size // 8
+
+class Details:
+    """The details of one vertex in one axis: kept values, and how wrong each has been."""
+    def __init__(self):
+        self.kept, self.errors = [0] * 4, [256] * 4
+
+    def take(self, D, n):
+        """n: number of frames before."""
+        if n == 0:
+            self.kept = [D] * 4
+            return
+        for r, kept in enumerate(self.kept):
+            missed = clamp(D - kept, -16383, 16383)
+            self.errors[r] += ((missed * missed >> 4) - self.errors[r]) * 5 >> 4
+            self.kept[r] += (D - kept) * (65536, 32768, 16384, SLOW[min(n, 9)])[r] >> 16
+
+class PyramidFrames:
+    """What the frames of a GOP along the pyramid need, and how they are decoded."""
+    def __init__(self, frames, turns):
+        self.frames, self.turns, self.number = frames, turns, 0
+        V = len(turns)
+        self.details = [[Details() for _ in range(3)] for _ in range(V)]
+        self.sizes, self.sizes_before = ([[512] * 3 for _ in range(V)] for _ in range(2))
+        self.levels = [[2 * 256 * 16] * 3 for _ in range(turns[-1].level + 1)]
+        self.by_size = [[[pyramid_model(1024 if is_scaled else size_of(i)) for _ in range(3)] for i in range(28)]
+                        for is_scaled in range(2)]
+        self.by_place = [[[pyramid_model((p + q) // 2) for q in PLACE_SIZES] for p in PLACE_SIZES] for _ in range(2)]
+        self.longer = [Bit() for _ in range(27)]
+
+    def frame(self, coder):
+        self.sizes, self.sizes_before = self.sizes_before, self.sizes
+        before = None
+        for turn in self.turns:
+            for axis in range(3):
+                self.index(coder, turn, axis, before)
+            self.take_details(turn)
+            before = turn.vertex
+
+    def end(self, predictor):
+        """Behind a frame: its details, unless it was decoded along the pyramid."""
+        if predictor != PYRAMID:
+            for turn in self.turns:
+                self.take_details(turn)
+        self.number += 1
+
+    def mean(self, turn, axis):
+        shift = self.frames.shift[turn.vertex]
+        total = sum(w * (self.frames.X[q][axis] >> shift) for q, w in zip(turn.neighbours, turn.weights))
+        return clamp(total + 128 >> 8, -2 ** 29, 2 ** 29)
+
+    def take_details(self, turn):
+        v = turn.vertex
+        for axis in range(3):
+            D = 64 * (self.frames.X[v][axis] >> self.frames.shift[v]) - self.mean(turn, axis)
+            self.details[v][axis].take(clamp(D, -2 ** 29, 2 ** 29), self.number)
+
+    def detail(self, turn, axis):
+        """The expected detail: the kept ones, by how right they have been here and around."""
+        own, around = self.details[turn.vertex][axis], turn.neighbours[:6]
+        logarithms = []
+        for r in range(4):
+            S = 5 * own.errors[r] + 4 * sum(self.details[q][axis].errors[r] for q in around)
+            logarithms.append(sixteenths((S * SHARE[len(around)] >> 16) + 8))
+        steps = [min(L - min(logarithms), 128) for L in logarithms]
+        credit = [EIGHTHS[i % 8] >> i // 8 for i in steps]
+        total = sum(c * (kept - own.kept[0]) for c, kept in zip(credit, own.kept))
+        return own.kept[0] + trunc(total, sum(credit))
+
+    def predicted(self, turn, axis, before):
+        """In 1/64 of a cell. before: the vertex of the turn before."""
+        shift = self.frames.shift[turn.vertex]
+        if self.number > 0:
+            return self.mean(turn, axis) + self.detail(turn, axis)
+        if turn.neighbours:
+            return self.mean(turn, axis)
+        return 64 * ((2 ** (self.frames.B2 - 1) if before is None else self.frames.X[before][axis]) >> shift)
+
+    def expected(self, turn, axis):
+        """The size that is expected, and those of the contexts: beside, and other or before."""
+        v, level, around = turn.vertex, self.levels[turn.level][axis] >> 4, turn.neighbours[:8]
+        beside = level
+        if around:
+            beside = sum(near * self.sizes[q][axis] for near, q in zip(NEAR, around)) // sum(NEAR[:len(around)])
+        other = sum(self.sizes[v][:axis]) // axis if axis > 0 else beside
+        if self.number == 0:
+            return (level + beside) // 2 if around else 51200, beside, other
+        before = self.sizes_before[v][axis]
+        return 38 * level + 90 * beside + 77 * before + 51 * other >> 8, beside, before
+
+    def index(self, coder, turn, axis, before):
+        v, shift = turn.vertex, self.frames.shift[turn.vertex]
+        cells = 2 ** (self.frames.B2 - shift)
+        predicted, (expected, beside, other) = self.predicted(turn, axis, before), self.expected(turn, axis)
+        rounded = clamp(predicted + 32 >> 6, 0, cells - 1)
+        lost = clamp(predicted - 64 * rounded, -32, 32)
+        raw = 0
+        while expected > 1536 and raw < 15:
+            expected, raw = expected // 2, raw + 1
+        part = (abs(lost) > 9) + (abs(lost) > 21)
+        models = (self.by_size[raw > 0][size_level(expected)][part],
+                  self.by_place[self.number == 0][place_of(beside)][place_of(other)], self.longer)
+        index = rounded + self.residual(coder, v, axis, rounded, lost < 0, raw, models)
+        require(0 <= index < cells, "7.5", "an index outside its lattice")
+        self.frames.X[v][axis] = index << shift
+        missed = clamp(64 * index - predicted, -2 ** 18, 2 ** 18)
+        self.sizes[v][axis] = 4 * abs(missed)
+        self.levels[turn.level][axis] += 16 * self.sizes[v][axis] - self.levels[turn.level][axis] >> 6
+
+    def residual(self, coder, _v, _axis, _rounded, mirrored, raw, models):
+        value = residual(coder, raw, *models)
+        return -value if mirrored else value
 
 def flags(data, gates, one_lattice):
     """7.4 Flags. Returns for each vertex whether it is fine."""
