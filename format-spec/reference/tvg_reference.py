@@ -789,7 +789,8 @@ class ReferenceShape:
                 around = sum(abs(self.residuals[u][k]) for u in ring) * (65536 // r) // 256
             same = 256 * sum(map(abs, residuals)) // k if k > 0 else around
             size = (5 * self.running[k] + 6 * around + 5 * same) * (3 if n == 0 else 1) // 16
-            d = self.residual(p, size, around, (total - p * count, count), min(n, 3))
+            raw, mirrored, *models = self.models(size, around, (total - p * count, count), min(n, 3))
+            d = self.value(v, k, p, raw, mirrored, *models)
             require(0 <= p + d < 2 ** self.bits, "5.3", "an index outside the lattice")
             point.append(p + d)
             residuals.append(d)
@@ -799,8 +800,8 @@ class ReferenceShape:
         if n > 0:
             reach.learn(n, E, O, point, max(0, self.bits - 12))
 
-    def residual(self, p, size, around, rest, kind):
-        """The residual of a guess p. rest: what rounding left, and of how many."""
+    def models(self, size, around, rest, kind):
+        """The models of a residual, and how it is coded. rest: what rounding left, and of how many."""
         raw = 0
         while size > 640:
             size, raw = size >> 1, raw + 1
@@ -808,9 +809,10 @@ class ReferenceShape:
         lost = 2 if 8 * abs(left) >= 3 * count else 1 if 8 * abs(left) >= count else 0
         near = min(around >> raw, 2 ** 30)
         ctx = 0 if near < 77 else min(15, 1 + (thirds_of_octaves(near) - 18) // 2)
-        return self.value(p, raw, left < 0, self.first[raw > 0][level][lost], self.second[kind][ctx])
+        return raw, left < 0, self.first[raw > 0][level][lost], self.second[kind][ctx]
 
-    def value(self, _, raw, mirrored, first, second):
+    def value(self, _v, _axis, _guess, raw, mirrored, first, second):
+        """A residual."""
         s = self.coder.symbol(first, second)
         w = s - 7
         if s == 15:
