@@ -93,7 +93,7 @@ def frames():
     yield case("far_outside", "7.5", choose_index=lambda v, axis, prediction, cells: 2 ** 26)
     yield case("empty", "6.1", edit=recoded(lambda content: b""))
     yield case("left_over", "6.1", edit=recoded(lambda content: content + b"\0"))
-    yield case("cut", "6.1", edit=recoded(lambda content: content[:-2]))
+    yield case("cut", "6.1", edit=recoded(lambda content: content[:-1]))
     yield case("out_of_range", "6.1", edit=recoded(lambda content: b"\xff" * len(content)))
 
 def cases():

@@ -43,7 +43,7 @@ def length(p, q):
 
 # The graphs: for each vertex its links, pairs of length and vertex, ascending.
 def sorted_links(links):
-    return {v: sorted((length, u) for u, length in to.items()) for v, to in links.items()}
+    return {v: sorted((between, u) for u, between in to.items()) for v, to in links.items()}
 
 def along_the_curve(shape):
     """The vertices in Morton order of their points."""
@@ -63,8 +63,8 @@ def first_graph(faces, shape):
             v = component[v]
         return v
 
-    def connect(a, b, length):
-        links[a][b] = links[b][a] = length
+    def connect(a, b, between):
+        links[a][b] = links[b][a] = between
 
     for face in faces:
         for a, b in zip(face, face[1:] + face[:1]):
