@@ -41,12 +41,12 @@ def d2(p, q):
 def length(p, q):
     return min(math.floor(16.0 * math.sqrt(d2(p, q))), LONGEST)
 
-# The graphs: for each vertex its links, pairs of length and vertex, ascending.
+# 5.4.1 The graph: for each vertex its links, pairs of length and vertex, ascending
 def sorted_links(links):
     return {v: sorted((between, u) for u, between in to.items()) for v, to in links.items()}
 
 def along_the_curve(shape):
-    """The vertices in Morton order of their points."""
+    """The vertices as the curve through all of them has them."""
     def compare(a, b):
         differences = [(shape[a][k] ^ shape[b][k]).bit_length() for k in range(3)]
         k = differences.index(max(differences))
@@ -79,6 +79,7 @@ def first_graph(faces, shape):
             connect(a, b, min(APART + length(shape[a], shape[b]), LONGEST))
     return sorted_links(links)
 
+# 5.4.2 Levels
 def colouring(graph, by_rank):
     """First fit: vertices of many links first."""
     colour = {}
@@ -99,6 +100,7 @@ def contracted(graph, colour):
                 links[a][b] = min(links[a].get(b, LONGEST), whole)
     return sorted_links(links)
 
+# 5.4.3 Neighbours
 def nearest(graph, time, v, m):
     """The m nearest vertices that are decoded before v: those of an earlier time."""
     reached, queue, found, visited = {v: 0}, [(0, v)], [], 0
@@ -121,7 +123,7 @@ def nearest(graph, time, v, m):
                 heapq.heappush(queue, (there, y))
     return found
 
-# Weights
+# 5.4.4 Weights
 def kernel(distance2, scale):
     r2 = distance2 * scale
     r = math.sqrt(r2)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
-It follows the order of the specification and uses its names. It does not recover from damage (§8.3): the first
-violation ends a stream. Python 3, standard library only.
+It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py). It does not recover from
+damage (§8.3): the first violation ends a stream. Python 3, standard library only.
 
     python3 tvg_reference.py FILE.tvg...
 
@@ -681,8 +681,8 @@ def reference_shape(data, faces, V):
     require(math.isfinite(step) and step > 0, "5.3", "step")
     return ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode(), neighbours
 
-def rings_and_wings(faces, V):
-    """For each vertex its neighbours, and the edges that it lies across from, with the vertex beyond: (a, b, o)."""
+def surroundings(faces, V):
+    """5.3.1 Surroundings. For each vertex its ring and its wings."""
     rings, wings, thirds = [set() for _ in range(V)], [[] for _ in range(V)], {}
     for face in faces:
         if len(set(face)) == 3:
@@ -698,8 +698,8 @@ def rings_and_wings(faces, V):
             wings[u].append((a, b, t))
     return [sorted(ring) for ring in rings], wings
 
-def thirds_of_octaves(x):
-    """T(x): which third of an octave x is in."""
+def thirds256(x):
+    """About 3 log2 x, for x >= 1."""
     q = x.bit_length() - 1
     m = 256 * x // 2 ** q
     return 3 * q + (m >= 323) + (m >= 406)
@@ -708,7 +708,7 @@ FALL = (359, 452, 570, 718, 904, 1139, 1434, 1805, 2270, 2852, 3577, 4476, 5580,
         19111, 21207, 23109)
 
 def shape_model(level):
-    """M(level)."""
+    """model(level) of 5.3.4."""
     fall, shares = FALL[level], [2 ** 20]
     for _ in range(8):
         shares.append(shares[-1] * fall // 2 ** 15)
@@ -716,28 +716,28 @@ def shape_model(level):
     return Symbol(weights=scaled(shares))
 
 class Reach:
-    """How far a vertex lies beyond an edge, to go by those before it."""
+    """5.3.5 Reach, of one class."""
     def __init__(self):
         self.product = self.square = 2 ** 14
         self.c = 256
 
-    def learn(self, n, E, O, point, sh):
-        o = [e - 2 * across >> sh for e, across in zip(E, O)]
-        y = [2 * n * x - e >> sh for e, x in zip(E, point)]
-        W = 2 ** 20 // (2 * n + sum(abs(b - (a * self.c >> 8)) for a, b in zip(o, y)))
-        self.product += (sum(a * b * W for a, b in zip(o, y)) >> 16) - (self.product >> 7)
-        self.square = max(256, self.square + (sum(a * a * W for a in o) >> 16) - (self.square >> 7))
-        self.c = clamp(256 * self.product // self.square, 0, 384)
+    def learn(self, n, E, O, point, z):
+        over = [e - 2 * o >> z for e, o in zip(E, O)]
+        y = [2 * n * x - e >> z for e, x in zip(E, point)]
+        weight = 2 ** 20 // (2 * n + sum(abs(b - (a * self.c >> 8)) for a, b in zip(over, y)))
+        self.product += (weight * sum(a * b for a, b in zip(over, y)) >> 16) - (self.product >> 7)
+        self.square = max(256, self.square + (weight * sum(a * a for a in over) >> 16) - (self.square >> 7))
+        self.c = clamp(trunc(256 * self.product, self.square), 0, 384)
 
 class ReferenceShape:
     """The points of a reference shape, as they are decoded."""
     def __init__(self, coder, faces, V, bits):
         self.coder, self.V, self.bits = coder, V, bits
-        self.rings, self.wings = rings_and_wings(faces, V)
-        self.point, self.residuals, self.before = [None] * V, [None] * V, None
-        self.running, self.reach = [2 ** bits] * 3, [Reach() for _ in range(9)]
+        self.rings, self.wings = surroundings(faces, V)
+        self.shape, self.residuals, self.before = [None] * V, [None] * V, None
+        self.running, self.reach = [2 ** bits] * 3, [Reach() for _ in range(9)]  # by min(n, 8)
         self.first = [[[shape_model(level) for _ in range(3)] for level in range(22)] for _ in range(2)]
-        self.second = [[shape_model(min(21, 2 * ctx + 10 + (5 if kind == 0 else 0))) for ctx in range(16)]
+        self.second = [[shape_model(min(21, 2 * place + 10 + (5 if kind == 0 else 0))) for place in range(16)]
                        for kind in range(4)]
         self.longer, self.top = [[Bit() for _ in range(26)] for _ in range(2)], [Bit() for _ in range(17)]
 
@@ -746,86 +746,81 @@ class ReferenceShape:
             self.vertex(v)
             self.before = v
         self.coder.finish()
-        return self.point
+        return self.shape
 
     def order(self):
-        """Each vertex in its turn; the one before has been coded by then."""
+        """5.3.2 Order. Each vertex in its turn; the one before is decoded by then."""
         standing, queues, lowest = [0] * self.V, [deque() for _ in range(16)], 0
         for _ in range(self.V):
             v = None
-            for place in range(15, 0, -1):
-                while v is None and queues[place]:
-                    u = queues[place].popleft()
-                    v = u if standing[u] == place and self.point[u] is None else None  # else it has left the queue
-            while v is None and self.point[lowest] is not None:
+            for high in range(15, 0, -1):
+                while v is None and queues[high]:
+                    u = queues[high].popleft()
+                    v = u if standing[u] == high and self.shape[u] is None else None  # else it has left the queue
+            while v is None and self.shape[lowest] is not None:
                 lowest += 1
             v = lowest if v is None else v
             yield v
             for u in self.rings[v]:
-                if self.point[u] is None and standing[u] < 15:
+                if self.shape[u] is None and standing[u] < 15:
                     standing[u] += 1
                     queues[standing[u]].append(u)
 
     def vertex(self, v):
-        wings = [wing for wing in self.wings[v][:12] if all(self.point[w] is not None for w in wing)]
-        ring = [u for u in self.rings[v][:64] if self.point[u] is not None]
-        n, r, reach = len(wings), len(ring), self.reach[min(len(wings), 8)]
-        E, O, P = ([sum(self.point[w][k] for w in vertices) for k in range(3)] for vertices in (
-            [w for wing in wings for w in wing[:2]], [wing[2] for wing in wings], ring))
-        point, residuals = [], []
+        """5.3.3 A vertex."""
+        W = [wing for wing in self.wings[v][:12] if all(self.shape[u] is not None for u in wing)]
+        N = [u for u in self.rings[v][:64] if self.shape[u] is not None]
+        n, r, reach = len(W), len(N), self.reach[min(len(W), 8)]
+        E = self.sums([u for wing in W for u in wing[:2]])
+        O = self.sums([wing[2] for wing in W])
+        if n > 0:
+            sums, count = [e * (256 + reach.c) - 2 * reach.c * o >> 7 for e, o in zip(E, O)], 4 * n
+        elif r > 0:
+            sums, count = self.sums(N), r
+        else:
+            sums, count = [2 ** (self.bits - 1)] * 3 if self.before is None else self.shape[self.before], 1
+        point, d = [], []
         for k in range(3):
-            # Guess
-            if n > 0:
-                S, count = (E[k] * (256 + reach.c) - 2 * reach.c * O[k]) // 128, 4 * n
-            elif r > 0:
-                S, count = P[k], r
-            else:
-                S, count = 2 ** (self.bits - 1) if self.before is None else self.point[self.before][k], 1
-            total = clamp(S, 0, count * (2 ** self.bits - 1))
+            total = clamp(sums[k], 0, count * (2 ** self.bits - 1))
             p = (2 * total + count) // (2 * count)
-            # Choice
-            around = self.running[k]
-            if r > 0:
-                around = sum(abs(self.residuals[u][k]) for u in ring) * (65536 // r) // 256
-            same = 256 * sum(map(abs, residuals)) // k if k > 0 else around
-            size = (5 * self.running[k] + 6 * around + 5 * same) * (3 if n == 0 else 1) // 16
-            raw, mirrored, *models = self.models(size, around, (total - p * count, count), min(n, 3))
-            d = self.value(v, k, p, raw, mirrored, *models)
-            require(0 <= p + d < 2 ** self.bits, "5.3", "an index outside the lattice")
-            point.append(p + d)
-            residuals.append(d)
+            rest = total - count * p
+            around = sum(abs(self.residuals[u][k]) for u in N) * (65536 // r) >> 8 if r > 0 else self.running[k]
+            same = (around, 256 * sum(map(abs, d)), 128 * sum(map(abs, d)))[k]
+            g, models = self.models((5 * self.running[k] + 6 * around + 5 * same) * (1 if n > 0 else 3) >> 4, around,
+                                    2 if 8 * abs(rest) >= 3 * count else 1 if 8 * abs(rest) >= count else 0, min(n, 3))
+            d.append(self.residual(v, k, p, rest < 0, g, models))
+            point.append(p + d[k])
+            require(0 <= point[k] < 2 ** self.bits, "5.3", "an index outside the lattice")
             if n > 0:
-                self.running[k] += (256 * abs(d) - self.running[k]) // 32
-        self.point[v], self.residuals[v] = point, residuals
+                self.running[k] += 256 * abs(d[k]) - self.running[k] >> 5
+        self.shape[v], self.residuals[v] = point, d
         if n > 0:
             reach.learn(n, E, O, point, max(0, self.bits - 12))
 
-    def models(self, size, around, rest, kind):
-        """The models of a residual, and how it is coded. rest: what rounding left, and of how many."""
-        raw = 0
-        while size > 640:
-            size, raw = size >> 1, raw + 1
-        level, (left, count) = thirds_of_octaves(max(size, 5)) - 6, rest
-        lost = 2 if 8 * abs(left) >= 3 * count else 1 if 8 * abs(left) >= count else 0
-        near = min(around >> raw, 2 ** 30)
-        ctx = 0 if near < 77 else min(15, 1 + (thirds_of_octaves(near) - 18) // 2)
-        return raw, left < 0, self.first[raw > 0][level][lost], self.second[kind][ctx]
+    def sums(self, vertices):
+        return [sum(self.shape[u][k] for u in vertices) for k in range(3)]
 
-    def value(self, _v, _axis, _guess, raw, mirrored, first, second):
-        """A residual."""
-        s = self.coder.symbol(first, second)
-        w = s - 7
-        if s == 15:
-            negative, length = self.coder.raw(1), 0
-            while length < 26 and self.coder.bit(self.longer[raw > 0][length]):
-                length += 1
-            w = min(2 ** length + self.coder.bits(length) + 7, 2 ** 27)
-            w = -w if negative else w
-        t = w
-        if raw > 0:
-            low = self.coder.bit(self.top[clamp(w, -8, 8) + 8]) << raw - 1
-            t = clamp(w * 2 ** raw + low + self.coder.bits(raw - 1), -2 ** 27, 2 ** 27)
-        return -t if mirrored else t
+    def models(self, size, around, lost, kind):
+        """g and the two models of a residual."""
+        g = 0
+        while size > 640:
+            size, g = size >> 1, g + 1
+        level, near = thirds256(max(size, 5)) - 6, min(around >> g, 2 ** 30)
+        place = 0 if near < 77 else min(15, 1 + (thirds256(near) - 18) // 2)
+        return g, (self.first[g > 0][level][lost], self.second[kind][place])
+
+    def residual(self, _v, _axis, _p, mirrored, g, models):
+        """5.3.4 A residual; -value() where it is mirrored. (Who writes shapes needs the rest to choose one.)"""
+        value = self.value(g, models)
+        return -value if mirrored else value
+
+    def value(self, g, models):
+        s = self.coder.symbol(*models)
+        high = s - 7 if s < 15 else escape(self.coder, self.longer[g > 0])
+        if g == 0:
+            return high
+        low = self.coder.bit(self.top[clamp(high, -8, 8) + 8]) << g - 1
+        return clamp(high * 2 ** g + low + self.coder.bits(g - 1), -2 ** 27, 2 ** 27)
 
 # 6. Entropy coding
 class RangeDecoder:
@@ -1058,81 +1053,83 @@ def residual(coder, k, first, second, longer):
 
 def escape(coder, longer):
     negative, length = coder.raw(1), 0
-    while length < 27 and coder.bit(longer[length]):
+    while length < len(longer) and coder.bit(longer[length]):
         length += 1
     size = min(2 ** length + coder.bits(length) + 7, 2 ** 27)
     return -size if negative else size
 
 # 7.7 Frames along the pyramid
-NEAR = (4096, 2048, 1365, 1024, 819, 682, 585, 512)
+NEARNESS = (4096, 2048, 1365, 1024, 819, 682, 585, 512)
 PLACES = (51, 72, 102, 145, 205, 290, 410, 579, 819)
-PLACE_SIZES = (26, *PLACES)
-SLOW = (65536, 32768, 21845, 16384, 13107, 10922, 9362, 8192, 7281, 6553)
+MIDDLE = (26, *PLACES)
+SLOW = (None, 32768, 21845, 16384, 13107, 10922, 9362, 8192, 7281, 6553)
 SHARE = (13107, 7281, 5041, 3855, 3120, 2621, 2259)
-EIGHTHS = (65536, 60097, 55109, 50535, 46341, 42495, 38968, 35734)
+EIGHTH = (65536, 60097, 55109, 50535, 46341, 42495, 38968, 35734)
 
 def trunc(a, b):
     """trunc(a / b), b above 0."""
     return a // b if a >= 0 else -(-a // b)
 
-def sixteenths(x):
-    """The logarithm of x, in sixteenths."""
+def octaves(x):
+    """About 16 log2 x, for x >= 1."""
+    z = x.bit_length() - 1
+    return 16 * z + ((16 * x >> z) & 15)
+
+def thirds64(x):
+    """About 3 log2 x, for x >= 1."""
     q = x.bit_length() - 1
-    return 16 * q + ((x << 4 >> q) & 15)
+    m = 64 * x >> q
+    return 3 * q + (m >= 81) + (m >= 101)
 
-def third(x):
-    q = x.bit_length() - 1
-    m = (x << 6 >> q) & 63
-    return 3 * q + (m >= 17) + (m >= 37)
+def size_level(x):
+    """Which of the models by size: 0 to 25."""
+    return max(thirds64(x | 1) - 6, 0)
 
-def size_level(size):
-    """Which of the models by size, 0 to 27."""
-    return clamp(third(size | 1) - third(5), 0, 27)
+def place_of(x):
+    return sum(x >= threshold for threshold in PLACES)
 
-def place_of(size):
-    return sum(size >= threshold for threshold in PLACES)
-
-def pyramid_model(size):
-    factor, value, shares = 65536 // (256 + size) * size + 256, 65536, [0] * 16
+def pyramid_model(x):
+    """model(x) of 7.7.4."""
+    factor, value, shares = 65536 // (256 + x) * x + 256, 65536, [0] * 16
     for r in range(8):
         shares[7 + r] = shares[7 - r] = value + 16
         value = value * factor >> 16
     shares[15] = value + 16
     return Symbol(weights=scaled(shares), count=6)
 
-def size_of(level):
-    size = next(size for size in range(5, 2 ** 12) if size_level(size) >= level)
-    return size + size // 8
+def level_model(level):
+    x = next(x for x in range(5, 1538) if size_level(x) >= level)
+    return pyramid_model(x + (x >> 3))
 
 class Details:
-    """The details of one vertex in one axis: kept values, and how wrong each has been."""
+    """The details of one vertex in one axis, and their errors (7.7.3)."""
     def __init__(self):
-        self.kept, self.errors = [0] * 4, [256] * 4
+        self.D, self.e = [0] * 4, [256] * 4
 
-    def take(self, D, n):
-        """n: number of frames before."""
-        if n == 0:
-            self.kept = [D] * 4
+    def take(self, d, f):
+        if f == 0:
+            self.D = [d] * 4
             return
-        for r, kept in enumerate(self.kept):
-            missed = clamp(D - kept, -16383, 16383)
-            self.errors[r] += ((missed * missed >> 4) - self.errors[r]) * 5 >> 4
-            self.kept[r] += (D - kept) * (65536, 32768, 16384, SLOW[min(n, 9)])[r] >> 16
+        for r, known in enumerate(self.D):
+            missed = clamp(d - known, -16383, 16383)
+            self.e[r] += 5 * ((missed * missed >> 4) - self.e[r]) >> 4
+            self.D[r] += (d - known) * (65536, 32768, 16384, SLOW[min(f, 9)])[r] >> 16
 
 class PyramidFrames:
     """What the frames of a GOP along the pyramid need, and how they are decoded."""
     def __init__(self, frames, turns):
-        self.frames, self.turns, self.number = frames, turns, 0
+        self.frames, self.turns, self.f = frames, turns, 0
         V = len(turns)
         self.details = [[Details() for _ in range(3)] for _ in range(V)]
         self.sizes, self.sizes_before = ([[512] * 3 for _ in range(V)] for _ in range(2))
-        self.levels = [[2 * 256 * 16] * 3 for _ in range(turns[-1].level + 1)]
-        self.by_size = [[[pyramid_model(1024 if is_scaled else size_of(i)) for _ in range(3)] for i in range(28)]
-                        for is_scaled in range(2)]
-        self.by_place = [[[pyramid_model((p + q) // 2) for q in PLACE_SIZES] for p in PLACE_SIZES] for _ in range(2)]
+        self.running = [[8192] * 3 for _ in range(turns[-1].level + 1)]
+        self.by_size = [[[level_model(i) for _ in range(3)] for i in range(26)],
+                        [[pyramid_model(1024) for _ in range(3)] for _ in range(26)]]
+        self.by_place = [[[pyramid_model((p + q) // 2) for q in MIDDLE] for p in MIDDLE] for _ in range(2)]
         self.longer = [Bit() for _ in range(27)]
 
     def frame(self, coder):
+        """7.7.1 A vertex, for each of them."""
         self.sizes, self.sizes_before = self.sizes_before, self.sizes
         before = None
         for turn in self.turns:
@@ -1146,73 +1143,74 @@ class PyramidFrames:
         if predictor != PYRAMID:
             for turn in self.turns:
                 self.take_details(turn)
-        self.number += 1
+        self.f += 1
 
-    def mean(self, turn, axis):
-        shift = self.frames.shift[turn.vertex]
-        total = sum(w * (self.frames.X[q][axis] >> shift) for q, w in zip(turn.neighbours, turn.weights))
-        return clamp(total + 128 >> 8, -2 ** 29, 2 ** 29)
+    def index(self, coder, turn, axis, before):
+        """Decode an index. before: the vertex of the turn before."""
+        v, s = turn.vertex, self.frames.shift[turn.vertex]
+        cells, prediction = 2 ** (self.frames.B2 - s), self.prediction(turn, axis, before)
+        rounded = clamp(prediction + 32 >> 6, 0, cells - 1)
+        lost = clamp(prediction - 64 * rounded, -32, 32)
+        k, models = self.models(turn, axis, lost)
+        index = rounded + self.residual(coder, v, axis, rounded, lost < 0, k, models)
+        require(0 <= index < cells, "7.5", "an index outside its lattice")
+        self.frames.X[v][axis] = index << s
+        # learn_size() of 7.7.4
+        size, running = 4 * min(abs(64 * index - prediction), 2 ** 18), self.running[turn.level]
+        self.sizes[v][axis] = size
+        running[axis] += 16 * size - running[axis] >> 6
 
-    def take_details(self, turn):
-        v = turn.vertex
-        for axis in range(3):
-            D = 64 * (self.frames.X[v][axis] >> self.frames.shift[v]) - self.mean(turn, axis)
-            self.details[v][axis].take(clamp(D, -2 ** 29, 2 ** 29), self.number)
-
-    def detail(self, turn, axis):
-        """The expected detail: the kept ones, by how right they have been here and around."""
-        own, around = self.details[turn.vertex][axis], turn.neighbours[:6]
-        logarithms = []
-        for r in range(4):
-            S = 5 * own.errors[r] + 4 * sum(self.details[q][axis].errors[r] for q in around)
-            logarithms.append(sixteenths((S * SHARE[len(around)] >> 16) + 8))
-        steps = [min(L - min(logarithms), 128) for L in logarithms]
-        credit = [EIGHTHS[i % 8] >> i // 8 for i in steps]
-        total = sum(c * (kept - own.kept[0]) for c, kept in zip(credit, own.kept))
-        return own.kept[0] + trunc(total, sum(credit))
-
-    def predicted(self, turn, axis, before):
-        """In 1/64 of a cell. before: the vertex of the turn before."""
-        shift = self.frames.shift[turn.vertex]
-        if self.number > 0:
+    def prediction(self, turn, axis, before):
+        if self.f > 0:
             return self.mean(turn, axis) + self.detail(turn, axis)
         if turn.neighbours:
             return self.mean(turn, axis)
-        return 64 * ((2 ** (self.frames.B2 - 1) if before is None else self.frames.X[before][axis]) >> shift)
+        nearby = 2 ** (self.frames.B2 - 1) if before is None else self.frames.X[before][axis]
+        return 64 * (nearby >> self.frames.shift[turn.vertex])
 
-    def expected(self, turn, axis):
-        """The size that is expected, and those of the contexts: beside, and other or before."""
-        v, level, around = turn.vertex, self.levels[turn.level][axis] >> 4, turn.neighbours[:8]
-        beside = level
+    def mean(self, turn, axis):
+        """7.7.2 The mean."""
+        s = self.frames.shift[turn.vertex]
+        total = sum(w * (self.frames.X[q][axis] >> s) for q, w in zip(turn.neighbours, turn.weights))
+        return clamp(128 + total >> 8, -2 ** 29, 2 ** 29)
+
+    def take_details(self, turn):
+        """7.7.3 Details."""
+        v = turn.vertex
+        for axis in range(3):
+            d = 64 * (self.frames.X[v][axis] >> self.frames.shift[v]) - self.mean(turn, axis)
+            self.details[v][axis].take(clamp(d, -2 ** 29, 2 ** 29), self.f)
+
+    def detail(self, turn, axis):
+        own, around = self.details[turn.vertex][axis], turn.neighbours[:6]
+        errors = [5 * own.e[r] + 4 * sum(self.details[q][axis].e[r] for q in around) for r in range(4)]
+        L = [octaves((E * SHARE[len(around)] >> 16) + 8) for E in errors]
+        steps = [min(x - min(L), 128) for x in L]
+        credit = [EIGHTH[i & 7] >> (i >> 3) for i in steps]
+        return own.D[0] + trunc(sum(c * (D - own.D[0]) for c, D in zip(credit, own.D)), sum(credit))
+
+    def models(self, turn, axis, lost):
+        """7.7.4 Sizes and models. Returns k and the models of a residual."""
+        v, running, around = turn.vertex, self.running[turn.level][axis] >> 4, turn.neighbours[:8]
+        beside = running
         if around:
-            beside = sum(near * self.sizes[q][axis] for near, q in zip(NEAR, around)) // sum(NEAR[:len(around)])
+            total = sum(near * self.sizes[q][axis] for near, q in zip(NEARNESS, around))
+            beside = total // sum(NEARNESS[:len(around)])
         other = sum(self.sizes[v][:axis]) // axis if axis > 0 else beside
-        if self.number == 0:
-            return (level + beside) // 2 if around else 51200, beside, other
-        before = self.sizes_before[v][axis]
-        return 38 * level + 90 * beside + 77 * before + 51 * other >> 8, beside, before
+        if self.f > 0:
+            x = 38 * running + 90 * beside + 77 * self.sizes_before[v][axis] + 51 * other >> 8
+            other = self.sizes_before[v][axis]
+        else:
+            x = running + beside >> 1 if around else 51200
+        k, part = 0, (abs(lost) > 9) + (abs(lost) > 21)
+        while x > 1536:
+            x, k = x >> 1, k + 1
+        return k, (self.by_size[k > 0][size_level(x)][part],
+                   self.by_place[self.f == 0][place_of(beside)][place_of(other)], self.longer)
 
-    def index(self, coder, turn, axis, before):
-        v, shift = turn.vertex, self.frames.shift[turn.vertex]
-        cells = 2 ** (self.frames.B2 - shift)
-        predicted, (expected, beside, other) = self.predicted(turn, axis, before), self.expected(turn, axis)
-        rounded = clamp(predicted + 32 >> 6, 0, cells - 1)
-        lost = clamp(predicted - 64 * rounded, -32, 32)
-        raw = 0
-        while expected > 1536 and raw < 15:
-            expected, raw = expected // 2, raw + 1
-        part = (abs(lost) > 9) + (abs(lost) > 21)
-        models = (self.by_size[raw > 0][size_level(expected)][part],
-                  self.by_place[self.number == 0][place_of(beside)][place_of(other)], self.longer)
-        index = rounded + self.residual(coder, v, axis, rounded, lost < 0, raw, models)
-        require(0 <= index < cells, "7.5", "an index outside its lattice")
-        self.frames.X[v][axis] = index << shift
-        missed = clamp(64 * index - predicted, -2 ** 18, 2 ** 18)
-        self.sizes[v][axis] = 4 * abs(missed)
-        self.levels[turn.level][axis] += 16 * self.sizes[v][axis] - self.levels[turn.level][axis] >> 6
-
-    def residual(self, coder, _v, _axis, _rounded, mirrored, raw, models):
-        value = residual(coder, raw, *models)
+    def residual(self, coder, _v, _axis, _rounded, mirrored, k, models):
+        """signed_residual(). (Who writes frames needs the rest to choose one.)"""
+        value = residual(coder, k, *models)
         return -value if mirrored else value
 
 def flags(data, gates, one_lattice):

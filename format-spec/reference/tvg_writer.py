@@ -322,15 +322,13 @@ class ShapeWriter(reference.ReferenceShape):
         super().__init__(RangeEncoder(), faces, V, bits)
         self.choose = choose
 
-    def value(self, v, axis, p, raw, mirrored, first, second):
+    def residual(self, v, axis, p, mirrored, g, models):
         d = self.choose(v, axis, p, 2 ** self.bits) - p
-        t = -d if mirrored else d
-        w = t >> raw
-        say_high(self.coder, w, 26)
-        if raw > 0:
-            low = t - (w << raw)
-            self.coder.say(low >> raw - 1, low % 2 ** (raw - 1))
-        return super().value(v, axis, p, raw, mirrored, first, second)
+        value = -d if mirrored else d
+        say_high(self.coder, value >> g, 26)
+        if g > 0:
+            self.coder.say(value >> g - 1 & 1, value % 2 ** (g - 1))
+        return super().residual(v, axis, p, mirrored, g, models)
 
 def reference_shape(bits, neighbours, origin, step, stream):
     return struct.pack("<2B4d", bits, neighbours, *origin, step) + stream
@@ -387,8 +385,8 @@ class FrameWriter(reference.Frames):
 
 class PyramidWriter(reference.PyramidFrames):
     """7.7: what a FrameWriter writes along the pyramid."""
-    def residual(self, coder, v, axis, rounded, mirrored, raw, models):
+    def residual(self, coder, v, axis, rounded, mirrored, k, models):
         cells = 2 ** (self.frames.B2 - self.frames.shift[v])
         d = self.frames.choose(v, axis, rounded, cells) - rounded
-        say_residual(coder, -d if mirrored else d, raw)
-        return super().residual(coder, v, axis, rounded, mirrored, raw, models)
+        say_residual(coder, -d if mirrored else d, k)
+        return super().residual(coder, v, axis, rounded, mirrored, k, models)
