@@ -40,10 +40,10 @@ ELP_FIELDS = {"fine_bits": 6, "coarse_bits": 4, "origin": (0.0, -1.0, 0.5), "ste
 def choose(v, axis, prediction, cells):
     return (v * 5 + axis * 3 + prediction // 2) % cells
 
-def gop(number=1, header=None, fields=None, edit=None, choose_index=choose):
+def gop(number=1, header=None, fields=None, edit=None, choose_index=choose, predictors=(SPACE, ELP), turns=None):
     """The payload of GOP number: with changed fields of the header, and its packets behind the header edited."""
-    frames, packets = writer.FrameWriter(GATES, FINE, 6, 4, choose_index), []
-    for predictor in (SPACE, ELP):
+    frames, packets = writer.FrameWriter(GATES, FINE, 6, 4, choose_index, turns), []
+    for predictor in predictors:
         try:
             content = frames.write(predictor)
         except reference.Invalid:
@@ -52,9 +52,10 @@ def gop(number=1, header=None, fields=None, edit=None, choose_index=choose):
             content = frames.coder.data
         packets.append((32 + predictor, content))
     packets.append((1, writer.digest([(1, frames.digest())])))
+    fields = ELP_FIELDS | {"predictors": writer.predictors_of(packets)} | (fields or {})
     packets = edit(packets) if edit else packets
     values = {"mesh_id": MESH_ID, "first_frame": 2 * number, "frame_count": 2, "packet_count": len(packets),
-              "fields": writer.elp_fields(**(ELP_FIELDS | (fields or {})))} | (header or {})
+              "fields": writer.elp_fields(**fields)} | (header or {})
     return writer.gop([(0, writer.gop_header(**values))] + packets)
 
 # A stream is a list of parts: a name, and what puts it into a Stream.
@@ -108,9 +109,9 @@ def extra(name):
     kind, payload = CHUNKS[name]
     return put(kind, payload, {"ancillary": 1, "critical": 0}.get(name))
 
-def of_broken_meshes(cases):
+def of_broken_meshes(cases, **parts):
     """Streams all of whose frames are of the broken mesh. cases: by name, the error, the section and the payload."""
     for name, (error, section, payload) in cases.items():
         gops = {f"GOP{k}": put_gop(gop(k, {"mesh_id": writer.checksum(payload)}), writer.checksum(payload))
                 for k in range(3)}
-        yield name, error, section, 0, stream(MESH=put_named(b"MESH", payload), **gops)
+        yield name, error, section, 0, stream(MESH=put_named(b"MESH", payload), **(gops | parts))

@@ -28,7 +28,7 @@ def packets():
     yield case("frame_behind_digest", "malformed", "4.5", 0, gop(edit=lambda packets: packets + [space]))
     for kind in (2, 31, 64, 127):
         yield case(f"kind_{kind}", "unsupported", "4.5", 1, gop(edit=inserted(1, (kind, b"?"))))
-    for kind in (35, 63):
+    for kind in (36, 63):
         yield case(f"kind_{kind}", "unsupported", "4.5", 1, gop(edit=lambda packets, kind=kind: replaced(
             1, (kind, packets[1][1]))(packets)))
     yield case("kind_2_behind_frames", "unsupported", "4.5", 0, gop(edit=inserted(2, (2, b"?"))))
@@ -48,7 +48,7 @@ def packets():
     yield case("packet_count_low", "malformed", "4.5.1", 2, gop(header={"packet_count": 2}))
     yield case("packet_count_high", "malformed", "4.5", 0, gop(header={"packet_count": 4}))
     yield case("bytes_behind", "malformed", "4.5", 0, content + b"\0")
-    yield case("first_by_time", "malformed", "4.5.2", 2, gop(edit=lambda packets: replaced(
+    yield case("first_by_time", "malformed", "4.5.2", 2, gop(fields={"predictors": 7}, edit=lambda packets: replaced(
         0, (32 + TIME, packets[0][1]))(packets)))
     two = {"channels": (1, 2)}
     digests = writer.digest([(1, 0), (2, 0)])

@@ -12,11 +12,13 @@ import sys
 
 import negative_chunks
 import negative_gops
+import negative_pyramid
 
 def cases():
     """Name, error, section, frames and bytes of each stream."""
     yield from negative_chunks.cases()
     yield from negative_gops.cases()
+    yield from negative_pyramid.cases()
 
 def main(arguments):
     if len(arguments) != 1:

@@ -8,12 +8,24 @@ writes the streams of the seeds to FOLDER/random_SEED.tvg. The same seed gives t
 import os
 import sys
 
+import tvg_reference as reference
 import tvg_writer as writer
-from tvg_reference import ELP, SPACE, TIME, clamp
+from tvg_reference import ELP, PYRAMID, SPACE, TIME, clamp
 from tvg_writer import Random, RandomConnectivity, Stream
 
 KINDS_UNKNOWN = (b"xtra", b"    ", b"~~~~", b"Gop ", b"HEA2")
 STEPS = (0.5, 1.0, 1 / 3, 2.0 ** -20, 1e-45, 3e38, 1e300)
+
+def chooser(random):
+    """A function that chooses indices: near what was predicted, but for wild ones."""
+    spread, wild = random.pick((0, 1, 3, 40)), random.pick((0, 0, 2, 50))
+
+    def choose(_, axis, prediction, cells):
+        if random.chance(wild):
+            return random.pick((0, cells - 1, random.below(cells)))
+        return clamp(prediction + random.between(-spread, spread) - axis, 0, cells - 1)
+
+    return choose
 
 class Mesh:
     """A random mesh: payload, id, and what frames need to know of it."""
@@ -26,10 +38,10 @@ class Mesh:
         else:
             V, F = random.between(3, 30), random.between(1, 40)
         if F == 0 and V > 128:
-            connectivity, (_, self.gates) = writer.padded(V)
+            connectivity, (faces, self.gates) = writer.padded(V)
         else:
             coded = RandomConnectivity(V, F, random)
-            _, self.gates = coded.decode()
+            faces, self.gates = coded.decode()
             connectivity = coded.coder.data
         sections = [(1, connectivity)]
         order = random.below(4)
@@ -39,10 +51,23 @@ class Mesh:
             sections.append((3, writer.near_order(random.shuffled(range(V)), self.gates, random)))
         elif order == 3:
             sections.append((3, writer.uniform_order(random.shuffled(range(V)))))
+        self.turns = None
+        if random.chance(60):
+            shape = self.shape(random, faces, V)
+            sections.append((5, shape))
+            self.turns = reference.pyramid(faces, *reference.reference_shape(shape, faces, V))
         sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 2, 4, 2 ** 40) if random.chance(15)]
         self.V, self.F = V, F
         self.payload = writer.mesh(V, F, sorted(sections))
         self.id = writer.checksum(self.payload)
+
+    @staticmethod
+    def shape(random, faces, V):
+        """The section of a reference shape."""
+        coded = writer.ShapeWriter(faces, V, random.pick((1, 3, 8, 16, 24)), chooser(random))
+        coded.decode()
+        origin = [random.pick((0.0, -1.0, 1e300)) for _ in range(3)]
+        return writer.reference_shape(coded.bits, random.between(4, 16), origin, random.pick(STEPS), coded.coder.data)
 
 class RandomStream:
     """One stream. Chunks are planned first, since HEAD bounds them."""
@@ -63,7 +88,8 @@ class RandomStream:
             "meshes": self.window,
             "mesh_bytes": max(len(mesh.payload) for mesh in self.meshes) + random.below(3),
         }
-        bounds["decoder_memory"] = writer.memory(**bounds) + random.pick((0, 0, 1, 10 ** 6))
+        shapes = any(mesh.turns for mesh in self.meshes)
+        bounds["decoder_memory"] = writer.memory(**bounds, shapes=shapes) + random.pick((0, 0, 1, 10 ** 6))
         others = {key: random.below(2 ** 63) for key in (0, 2, 8, 14, 1000) if random.chance(20)}
         stream = Stream()
         stream.add(b"HEAD", writer.head(others=others, **bounds))
@@ -148,18 +174,13 @@ class RandomStream:
         coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
         fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
         channels = [1] + [channel for channel in (2, 6, 10 ** 6) if random.chance(15)]
-        spread, wild = random.pick((0, 1, 3, 40)), random.pick((0, 0, 2, 50))
-
-        def choose(_, axis, prediction, cells):
-            if random.chance(wild):
-                return random.pick((0, cells - 1, random.below(cells)))
-            return clamp(prediction + random.between(-spread, spread) - axis, 0, cells - 1)
-
-        frames, packets = writer.FrameWriter(mesh.gates, fine, fine_bits, coarse_bits, choose), []
+        turns = mesh.turns if random.chance(80) else None
+        first = (SPACE, PYRAMID, PYRAMID) if turns else (SPACE,)
+        frames, packets = writer.FrameWriter(mesh.gates, fine, fine_bits, coarse_bits, chooser(random), turns), []
         frame_count = random.between(1, 4)
         for number in range(frame_count):
             self.ancillary(packets)
-            predictor = SPACE if number == 0 else random.pick((SPACE, TIME, ELP, ELP))
+            predictor = random.pick(first if number == 0 else (*first, TIME, ELP, ELP))
             pieces = [frames.write(predictor)] + [random.some_bytes(random.below(4)) for _ in channels[1:]]
             packets.append((32 + predictor, b"".join(map(writer.sized, pieces[:-1])) + pieces[-1]))
         self.ancillary(packets)
@@ -168,7 +189,8 @@ class RandomStream:
         self.ancillary(packets)
         origin = [random.pick((0.0, -1.0, 1e-3, 123.456, -1e30)) for _ in range(3)]
         flags = writer.flags(fine, mesh.gates) if coarse_bits < fine_bits else b""
-        fields = writer.elp_fields(fine_bits, coarse_bits, origin, random.pick(STEPS), flags, channels)
+        named = writer.predictors_of(packets) | (random.below(16) if turns else random.below(8))
+        fields = writer.elp_fields(named, fine_bits, coarse_bits, origin, random.pick(STEPS), flags, channels)
         header = writer.gop_header(mesh.id, self.label, frame_count, len(packets), fields=fields)
         if self.label < 2 ** 62:
             self.label += frame_count + random.pick((0, 0, 0, 5))

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
-It follows the order of the specification and uses its names. It does not recover from damage (§8.3): the first
-violation ends a stream. Python 3, standard library only.
+It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py). It does not recover from
+damage (§8.3): the first violation ends a stream. Python 3, standard library only.
 
     python3 tvg_reference.py FILE.tvg...
 
@@ -22,6 +22,9 @@ import os
 import struct
 import sys
 from bisect import bisect_left
+from collections import deque
+
+from tvg_pyramid import pyramid  # 5.4
 
 class Invalid(Exception):
     """The stream violates a section of the specification; error is one of those of §8.4."""
@@ -129,7 +132,7 @@ ORDER = {
 }
 LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30}  # §8.1, by key of §4.1
 MESH_ENTRY, PLAN_ENTRY, GOP_ENTRY = 1, 2, 3  # kinds of §4.6
-SPACE, TIME, ELP = 0, 1, 2  # predictors of §7.2
+SPACE, TIME, ELP, PYRAMID = 0, 1, 2, 3  # predictors of §7.2 and §7.7
 
 def unknown_text(key):
     """3.5: what is even may be skipped."""
@@ -137,8 +140,9 @@ def unknown_text(key):
 
 class Mesh:
     """A mesh in force (4.3); number: that of its latest entry of the index among the meshes', from 1."""
-    def __init__(self, V, faces, gates, order):
+    def __init__(self, V, faces, gates, order, turns):
         self.V, self.gates, self.order, self.number = V, gates, order, 0
+        self.turns = turns  # of the pyramid (5.4); None without a reference shape
         self.faces = [tuple(order[corner] for corner in face) for face in faces]  # in output order
 
 class Decoder:
@@ -226,6 +230,8 @@ class Decoder:
         memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes + self.mesh_bytes
         memory += (self.meshes_in_force - 1) * (512 + 24 * self.vertices + 16 * self.faces)
         require(bounds[9] >= memory, "4.1", "decoder_memory")
+        shapes = (400 + 128 * self.meshes_in_force) * self.vertices + 96 * self.faces
+        self.room_for_shapes = bounds[9] >= memory + shapes
         for key, limit in LIMITS.items():
             require(bounds[key] <= limit, "8.1", f"key {key}: more than this decoder allows", "limit-exceeded")
 
@@ -266,11 +272,15 @@ class Decoder:
             last = kind
         require(1 in sections, "4.3", "no connectivity")
         for kind in sections:
-            require(kind in (1, 3) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+            require(kind in (1, 3, 5) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+        require(5 not in sections or self.room_for_shapes, "8.2", "decoder_memory is too little for shapes",
+                "limit-exceeded")
         require(V + F <= 128 * len(sections[1]) and F <= 2 ** 30, "5.1", "too many vertices or faces",
                 "limit-exceeded")
         faces, gates = Connectivity(RangeDecoder(sections[1], "5.1"), V, F).decode()
-        return Mesh(V, faces, gates, vertex_order(sections[3], gates) if 3 in sections else list(range(V)))
+        order = vertex_order(sections[3], gates) if 3 in sections else list(range(V))
+        turns = pyramid(faces, *reference_shape(sections[5], faces, V)) if 5 in sections else None
+        return Mesh(V, faces, gates, order, turns)
 
     def entries(self, kind):
         """How many entries of a kind the index has so far."""
@@ -299,7 +309,8 @@ class Decoder:
         self.index.append((GOP_ENTRY, offset, fields))
         header.elp(mesh)
 
-        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits)
+        turns = mesh.turns if header.predictors >> PYRAMID & 1 else None
+        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits, turns)
         hashed, digested, decoded = bytearray(), False, 0
         while number < header.packet_count:
             number += 1
@@ -313,9 +324,10 @@ class Decoder:
                 digested = True
                 continue
             require(kind != 0, "4.5", "a second header")
-            require(32 <= kind <= 34, "4.5", f"packets of kind {kind} are not known", "unsupported")
+            require(32 <= kind <= 35, "4.5", f"packets of kind {kind} are not known", "unsupported")
             require(decoded < header.frame_count, "4.5", "more frames than frame_count")
-            require(decoded > 0 or kind == 32, "4.5.2", "the first frame is not predicted by space")
+            require(header.predictors >> kind - 32 & 1, "4.5.2", "a predictor that the header does not name")
+            require(decoded > 0 or kind in (32, 35), "4.5.2", "nothing is there to predict the first frame from")
             frames.frame(RangeDecoder(header.positions(content), "7.5"), kind - 32)
             decoded += 1
             hashed += b"".join(struct.pack("<3i", *index) for index in frames.X)
@@ -432,6 +444,10 @@ class Header:
         self.channels = [reader.varint() for _ in range(count)]
         require(all(a < b for a, b in zip(self.channels, self.channels[1:])), "3.5", "channels do not ascend")
         require(self.channels[0] == 1, "4.5.1", "the first channel is not positions")
+        self.predictors = reader.unsigned(1)
+        require(self.predictors < 16, "4.5.1", f"predictors {self.predictors}", "unsupported")
+        require(self.predictors & (1 << SPACE | 1 << PYRAMID), "4.5.1", "nothing can predict the first frame")
+        require(mesh.turns or not self.predictors >> PYRAMID, "4.5.1", "the mesh has no reference shape")
         self.fine_bits, self.coarse_bits = reader.unsigned(1), reader.unsigned(1)
         require(1 <= self.fine_bits <= 24, "4.5.1", "fine_bits")
         require(1 <= self.coarse_bits <= self.fine_bits, "4.5.1", "coarse_bits")
@@ -653,6 +669,159 @@ def uniform_order(coder, gates, unused):
 
     return [unused.pop(uniform(len(unused))) for _ in gates]
 
+# 5.3 Reference shape
+def reference_shape(data, faces, V):
+    """Returns the lattice indices of the vertices, and how many neighbours one has in the pyramid."""
+    reader = Reader(data, "5.3")
+    bits, neighbours = reader.unsigned(1), reader.unsigned(1)
+    origin, step = [reader.f64() for _ in range(3)], reader.f64()
+    require(1 <= bits <= 24, "5.3", "bits")
+    require(4 <= neighbours <= 16, "5.3", "neighbours")
+    require(all(map(math.isfinite, origin)), "5.3", "origin")
+    require(math.isfinite(step) and step > 0, "5.3", "step")
+    return ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode(), neighbours
+
+def surroundings(faces, V):
+    """5.3.1 Surroundings. For each vertex its ring and its wings."""
+    rings, wings, thirds = [set() for _ in range(V)], [[] for _ in range(V)], {}
+    for face in faces:
+        if len(set(face)) == 3:
+            for third in face:
+                a, b = sorted(set(face) - {third})
+                thirds.setdefault((a, b), set()).add(third)
+    for (a, b), across in sorted(thirds.items()):
+        rings[a].add(b)
+        rings[b].add(a)
+        if len(across) == 2:
+            t, u = across
+            wings[t].append((a, b, u))
+            wings[u].append((a, b, t))
+    return [sorted(ring) for ring in rings], wings
+
+def thirds256(x):
+    """About 3 log2 x, for x >= 1."""
+    q = x.bit_length() - 1
+    m = 256 * x // 2 ** q
+    return 3 * q + (m >= 323) + (m >= 406)
+
+FALL = (359, 452, 570, 718, 904, 1139, 1434, 1805, 2270, 2852, 3577, 4476, 5580, 6918, 8508, 10348, 12406, 14616, 16885,
+        19111, 21207, 23109)
+
+def shape_model(level):
+    """model(level) of 5.3.4."""
+    fall, shares = FALL[level], [2 ** 20]
+    for _ in range(8):
+        shares.append(shares[-1] * fall // 2 ** 15)
+    shares = shares[7:0:-1] + shares[:8] + [2 * shares[8] * 2 ** 15 // (32768 - fall)]
+    return Symbol(weights=scaled(shares))
+
+class Reach:
+    """5.3.5 Reach, of one class."""
+    def __init__(self):
+        self.product = self.square = 2 ** 14
+        self.c = 256
+
+    def learn(self, n, E, O, point, z):
+        over = [e - 2 * o >> z for e, o in zip(E, O)]
+        y = [2 * n * x - e >> z for e, x in zip(E, point)]
+        weight = 2 ** 20 // (2 * n + sum(abs(b - (a * self.c >> 8)) for a, b in zip(over, y)))
+        self.product += (weight * sum(a * b for a, b in zip(over, y)) >> 16) - (self.product >> 7)
+        self.square = max(256, self.square + (weight * sum(a * a for a in over) >> 16) - (self.square >> 7))
+        self.c = clamp(trunc(256 * self.product, self.square), 0, 384)
+
+class ReferenceShape:
+    """The points of a reference shape, as they are decoded."""
+    def __init__(self, coder, faces, V, bits):
+        self.coder, self.V, self.bits = coder, V, bits
+        self.rings, self.wings = surroundings(faces, V)
+        self.shape, self.residuals, self.before = [None] * V, [None] * V, None
+        self.running, self.reach = [2 ** bits] * 3, [Reach() for _ in range(9)]  # by min(n, 8)
+        self.first = [[[shape_model(level) for _ in range(3)] for level in range(22)] for _ in range(2)]
+        self.second = [[shape_model(min(21, 2 * place + 10 + (5 if kind == 0 else 0))) for place in range(16)]
+                       for kind in range(4)]
+        self.longer, self.top = [[Bit() for _ in range(26)] for _ in range(2)], [Bit() for _ in range(17)]
+
+    def decode(self):
+        for v in self.order():
+            self.vertex(v)
+            self.before = v
+        self.coder.finish()
+        return self.shape
+
+    def order(self):
+        """5.3.2 Order. Each vertex in its turn; the one before is decoded by then."""
+        standing, queues, lowest = [0] * self.V, [deque() for _ in range(16)], 0
+        for _ in range(self.V):
+            v = None
+            for high in range(15, 0, -1):
+                while v is None and queues[high]:
+                    u = queues[high].popleft()
+                    v = u if standing[u] == high and self.shape[u] is None else None  # else it has left the queue
+            while v is None and self.shape[lowest] is not None:
+                lowest += 1
+            v = lowest if v is None else v
+            yield v
+            for u in self.rings[v]:
+                if self.shape[u] is None and standing[u] < 15:
+                    standing[u] += 1
+                    queues[standing[u]].append(u)
+
+    def vertex(self, v):
+        """5.3.3 A vertex."""
+        W = [wing for wing in self.wings[v][:12] if all(self.shape[u] is not None for u in wing)]
+        N = [u for u in self.rings[v][:64] if self.shape[u] is not None]
+        n, r, reach = len(W), len(N), self.reach[min(len(W), 8)]
+        E = self.sums([u for wing in W for u in wing[:2]])
+        O = self.sums([wing[2] for wing in W])
+        if n > 0:
+            sums, count = [e * (256 + reach.c) - 2 * reach.c * o >> 7 for e, o in zip(E, O)], 4 * n
+        elif r > 0:
+            sums, count = self.sums(N), r
+        else:
+            sums, count = [2 ** (self.bits - 1)] * 3 if self.before is None else self.shape[self.before], 1
+        point, d = [], []
+        for k in range(3):
+            total = clamp(sums[k], 0, count * (2 ** self.bits - 1))
+            p = (2 * total + count) // (2 * count)
+            rest = total - count * p
+            around = sum(abs(self.residuals[u][k]) for u in N) * (65536 // r) >> 8 if r > 0 else self.running[k]
+            same = (around, 256 * sum(map(abs, d)), 128 * sum(map(abs, d)))[k]
+            g, models = self.models((5 * self.running[k] + 6 * around + 5 * same) * (1 if n > 0 else 3) >> 4, around,
+                                    2 if 8 * abs(rest) >= 3 * count else 1 if 8 * abs(rest) >= count else 0, min(n, 3))
+            d.append(self.residual(v, k, p, rest < 0, g, models))
+            point.append(p + d[k])
+            require(0 <= point[k] < 2 ** self.bits, "5.3", "an index outside the lattice")
+            if n > 0:
+                self.running[k] += 256 * abs(d[k]) - self.running[k] >> 5
+        self.shape[v], self.residuals[v] = point, d
+        if n > 0:
+            reach.learn(n, E, O, point, max(0, self.bits - 12))
+
+    def sums(self, vertices):
+        return [sum(self.shape[u][k] for u in vertices) for k in range(3)]
+
+    def models(self, size, around, lost, kind):
+        """g and the two models of a residual."""
+        g = 0
+        while size > 640:
+            size, g = size >> 1, g + 1
+        level, near = thirds256(max(size, 5)) - 6, min(around >> g, 2 ** 30)
+        place = 0 if near < 77 else min(15, 1 + (thirds256(near) - 18) // 2)
+        return g, (self.first[g > 0][level][lost], self.second[kind][place])
+
+    def residual(self, _v, _axis, _p, mirrored, g, models):
+        """5.3.4 A residual; -value() where it is mirrored. (Who writes shapes needs the rest to choose one.)"""
+        value = self.value(g, models)
+        return -value if mirrored else value
+
+    def value(self, g, models):
+        s = self.coder.symbol(*models)
+        high = s - 7 if s < 15 else escape(self.coder, self.longer[g > 0])
+        if g == 0:
+            return high
+        low = self.coder.bit(self.top[clamp(high, -8, 8) + 8]) << g - 1
+        return clamp(high * 2 ** g + low + self.coder.bits(g - 1), -2 ** 27, 2 ** 27)
+
 # 6. Entropy coding
 class RangeDecoder:
     """6.1 The range coder. user: the section whose stream this is, for messages."""
@@ -738,19 +907,23 @@ class Bit:
         self.slow += -(self.slow >> r) if bit else (0xFFFF - self.slow) >> r
         self.count = min(self.count + 1, 12)
 
-def start(weights):
-    """The first state of an adaptive symbol with 16 weights that sum up to one of N, or to 65535."""
-    return [(2 ** 15 - 64) * sum(weights[:i]) // sum(weights) for i in range(16)]
+def start(weights, whole):
+    """The first state of an adaptive symbol with 16 weights, of a whole."""
+    return [(2 ** 15 - 64) * sum(weights[:i]) // whole for i in range(16)]
 
-EVEN = {N: start([1] * N + [0] * (16 - N)) for N in range(2, 17)}
+def scaled(shares):
+    """Weights in the proportion of the shares."""
+    return [share * 65535 // sum(shares) for share in shares]
+
+EVEN = {N: start([1] * N + [0] * (16 - N), N) for N in range(2, 17)}
 
 class Symbol:
     """An adaptive symbol: of N equally likely ones, or with 16 weights."""
     S = 2 ** 15 - 64
 
-    def __init__(self, N=16, weights=None):
-        self.count = 0
-        self.c = start(weights) if weights else EVEN[N][:]
+    def __init__(self, N=16, weights=None, count=0):
+        self.count = count
+        self.c = start(weights, 65535) if weights else EVEN[N][:]
 
     def adapt(self, s):
         rate = 2 + (self.count >= 2) + (self.count >= 6) + (self.count >= 16) + (self.count >= 32)
@@ -771,6 +944,7 @@ class Level:
         self.first, self.second = [Symbol(16) for _ in range(15)], [Symbol(16) for _ in range(15)]
         self.longer = [Bit() for _ in range(27)]
 
+RAW = (0,) * 11 + (1, 1, 2, 2, 3)  # k of §7.3.2, by level
 THRESHOLDS = (2, 3, 6, 9, 12, 18, 24, 33, 45, 60, 81, 108, 144, 190, 252)
 
 def sgn2(x):
@@ -784,29 +958,39 @@ def half(x):
     return x // 2 if x >= 0 else -(-x // 2)
 
 class Frames:
-    """The frames of one GOP."""
-    def __init__(self, gates, fine, fine_bits, coarse_bits):
+    """The frames of one GOP. turns: of the pyramid, where frames may be predicted along it."""
+    def __init__(self, gates, fine, fine_bits, coarse_bits, turns=None):
         self.gates, self.fine = gates, fine
         self.B2, self.D = fine_bits, fine_bits - coarse_bits
         self.shift = [0 if is_fine else self.D for is_fine in fine]
         self.X, self.before = None, None  # padded indices of this frame and of the one before
         self.R = [[0, 0, 0] for _ in gates]
         self.levels = {}  # by set and level, made when they are first used
+        self.pyramid = PyramidFrames(self, turns) if turns else None
 
     def frame(self, coder, predictor):
         """7.5 A frame, from a range-coder stream."""
         self.before, self.X, self.predictor = self.X, [[0, 0, 0] for _ in self.gates], predictor
+        if predictor == PYRAMID:
+            self.pyramid.frame(coder)
+        else:
+            self.frame_by_gates(coder)
+        coder.finish()
+        if self.pyramid:
+            self.pyramid.end(predictor)
+
+    def frame_by_gates(self, coder):
         for v, shift in enumerate(self.shift):
             for axis in range(3):
                 prediction, model_set, activity, first, second = self.predict(v, axis)
                 level = sum(activity >= threshold for threshold in THRESHOLDS)
                 if (model_set, level) not in self.levels:
                     self.levels[model_set, level] = Level()
-                value = residual(coder, level, self.levels[model_set, level], first, second)
+                models = self.levels[model_set, level]
+                value = residual(coder, RAW[level], models.first[first], models.second[second], models.longer)
                 index = prediction + value
                 require(0 <= index < 2 ** (self.B2 - shift), "7.5", "an index outside its lattice")
                 self.X[v][axis], self.R[v][axis] = index << shift, value << shift
-        coder.finish()
 
     def predict(self, v, axis):
         """Prediction, set, activity, first and second for a vertex in an axis."""
@@ -861,19 +1045,173 @@ class Frames:
                 second = 3 * sgn2(half(pull + (pull > 0))) + sgn1(half(R_v))
         return prediction, model_set, activity, first, second
 
-def residual(coder, level, models, first, second):
+def residual(coder, k, first, second, longer):
     """7.3.2 The value."""
-    k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
-    s = coder.symbol(models.first[first], models.second[second])
-    high = s - 7 if s < 15 else escape(coder, models.longer)
+    s = coder.symbol(first, second)
+    high = s - 7 if s < 15 else escape(coder, longer)
     return high if k == 0 else clamp(high * 2 ** k + coder.raw(k), -2 ** 27, 2 ** 27)
 
 def escape(coder, longer):
     negative, length = coder.raw(1), 0
-    while length < 27 and coder.bit(longer[length]):
+    while length < len(longer) and coder.bit(longer[length]):
         length += 1
     size = min(2 ** length + coder.bits(length) + 7, 2 ** 27)
     return -size if negative else size
+
+# 7.7 Frames along the pyramid
+NEARNESS = (4096, 2048, 1365, 1024, 819, 682, 585, 512)
+PLACES = (51, 72, 102, 145, 205, 290, 410, 579, 819)
+MIDDLE = (26, *PLACES)
+SLOW = (None, 32768, 21845, 16384, 13107, 10922, 9362, 8192, 7281, 6553)
+SHARE = (13107, 7281, 5041, 3855, 3120, 2621, 2259)
+EIGHTH = (65536, 60097, 55109, 50535, 46341, 42495, 38968, 35734)
+
+def trunc(a, b):
+    """trunc(a / b), b above 0."""
+    return a // b if a >= 0 else -(-a // b)
+
+def octaves(x):
+    """About 16 log2 x, for x >= 1."""
+    z = x.bit_length() - 1
+    return 16 * z + ((16 * x >> z) & 15)
+
+def thirds64(x):
+    """About 3 log2 x, for x >= 1."""
+    q = x.bit_length() - 1
+    m = 64 * x >> q
+    return 3 * q + (m >= 81) + (m >= 101)
+
+def size_level(x):
+    """Which of the models by size: 0 to 25."""
+    return max(thirds64(x | 1) - 6, 0)
+
+def place_of(x):
+    return sum(x >= threshold for threshold in PLACES)
+
+def pyramid_model(x):
+    """model(x) of 7.7.4."""
+    factor, value, shares = 65536 // (256 + x) * x + 256, 65536, [0] * 16
+    for r in range(8):
+        shares[7 + r] = shares[7 - r] = value + 16
+        value = value * factor >> 16
+    shares[15] = value + 16
+    return Symbol(weights=scaled(shares), count=6)
+
+def level_model(level):
+    x = next(x for x in range(5, 1538) if size_level(x) >= level)
+    return pyramid_model(x + (x >> 3))
+
+class Details:
+    """The details of one vertex in one axis, and their errors (7.7.3)."""
+    def __init__(self):
+        self.D, self.e = [0] * 4, [256] * 4
+
+    def take(self, d, f):
+        if f == 0:
+            self.D = [d] * 4
+            return
+        for r, known in enumerate(self.D):
+            missed = clamp(d - known, -16383, 16383)
+            self.e[r] += 5 * ((missed * missed >> 4) - self.e[r]) >> 4
+            self.D[r] += (d - known) * (65536, 32768, 16384, SLOW[min(f, 9)])[r] >> 16
+
+class PyramidFrames:
+    """What the frames of a GOP along the pyramid need, and how they are decoded."""
+    def __init__(self, frames, turns):
+        self.frames, self.turns, self.f = frames, turns, 0
+        V = len(turns)
+        self.details = [[Details() for _ in range(3)] for _ in range(V)]
+        self.sizes, self.sizes_before = ([[512] * 3 for _ in range(V)] for _ in range(2))
+        self.running = [[8192] * 3 for _ in range(turns[-1].level + 1)]
+        self.by_size = [[[level_model(i) for _ in range(3)] for i in range(26)],
+                        [[pyramid_model(1024) for _ in range(3)] for _ in range(26)]]
+        self.by_place = [[[pyramid_model((p + q) // 2) for q in MIDDLE] for p in MIDDLE] for _ in range(2)]
+        self.longer = [Bit() for _ in range(27)]
+
+    def frame(self, coder):
+        """7.7.1 A vertex, for each of them."""
+        self.sizes, self.sizes_before = self.sizes_before, self.sizes
+        before = None
+        for turn in self.turns:
+            for axis in range(3):
+                self.index(coder, turn, axis, before)
+            self.take_details(turn)
+            before = turn.vertex
+
+    def end(self, predictor):
+        """Behind a frame: its details, unless it was decoded along the pyramid."""
+        if predictor != PYRAMID:
+            for turn in self.turns:
+                self.take_details(turn)
+        self.f += 1
+
+    def index(self, coder, turn, axis, before):
+        """Decode an index. before: the vertex of the turn before."""
+        v, s = turn.vertex, self.frames.shift[turn.vertex]
+        cells, prediction = 2 ** (self.frames.B2 - s), self.prediction(turn, axis, before)
+        rounded = clamp(prediction + 32 >> 6, 0, cells - 1)
+        lost = clamp(prediction - 64 * rounded, -32, 32)
+        k, models = self.models(turn, axis, lost)
+        index = rounded + self.residual(coder, v, axis, rounded, lost < 0, k, models)
+        require(0 <= index < cells, "7.5", "an index outside its lattice")
+        self.frames.X[v][axis] = index << s
+        # learn_size() of 7.7.4
+        size, running = 4 * min(abs(64 * index - prediction), 2 ** 18), self.running[turn.level]
+        self.sizes[v][axis] = size
+        running[axis] += 16 * size - running[axis] >> 6
+
+    def prediction(self, turn, axis, before):
+        if self.f > 0:
+            return self.mean(turn, axis) + self.detail(turn, axis)
+        if turn.neighbours:
+            return self.mean(turn, axis)
+        nearby = 2 ** (self.frames.B2 - 1) if before is None else self.frames.X[before][axis]
+        return 64 * (nearby >> self.frames.shift[turn.vertex])
+
+    def mean(self, turn, axis):
+        """7.7.2 The mean."""
+        s = self.frames.shift[turn.vertex]
+        total = sum(w * (self.frames.X[q][axis] >> s) for q, w in zip(turn.neighbours, turn.weights))
+        return clamp(128 + total >> 8, -2 ** 29, 2 ** 29)
+
+    def take_details(self, turn):
+        """7.7.3 Details."""
+        v = turn.vertex
+        for axis in range(3):
+            d = 64 * (self.frames.X[v][axis] >> self.frames.shift[v]) - self.mean(turn, axis)
+            self.details[v][axis].take(clamp(d, -2 ** 29, 2 ** 29), self.f)
+
+    def detail(self, turn, axis):
+        own, around = self.details[turn.vertex][axis], turn.neighbours[:6]
+        errors = [5 * own.e[r] + 4 * sum(self.details[q][axis].e[r] for q in around) for r in range(4)]
+        L = [octaves((E * SHARE[len(around)] >> 16) + 8) for E in errors]
+        steps = [min(x - min(L), 128) for x in L]
+        credit = [EIGHTH[i & 7] >> (i >> 3) for i in steps]
+        return own.D[0] + trunc(sum(c * (D - own.D[0]) for c, D in zip(credit, own.D)), sum(credit))
+
+    def models(self, turn, axis, lost):
+        """7.7.4 Sizes and models. Returns k and the models of a residual."""
+        v, running, around = turn.vertex, self.running[turn.level][axis] >> 4, turn.neighbours[:8]
+        beside = running
+        if around:
+            total = sum(near * self.sizes[q][axis] for near, q in zip(NEARNESS, around))
+            beside = total // sum(NEARNESS[:len(around)])
+        other = sum(self.sizes[v][:axis]) // axis if axis > 0 else beside
+        if self.f > 0:
+            x = 38 * running + 90 * beside + 77 * self.sizes_before[v][axis] + 51 * other >> 8
+            other = self.sizes_before[v][axis]
+        else:
+            x = running + beside >> 1 if around else 51200
+        k, part = 0, (abs(lost) > 9) + (abs(lost) > 21)
+        while x > 1536:
+            x, k = x >> 1, k + 1
+        return k, (self.by_size[k > 0][size_level(x)][part],
+                   self.by_place[self.f == 0][place_of(beside)][place_of(other)], self.longer)
+
+    def residual(self, coder, _v, _axis, _rounded, mirrored, k, models):
+        """signed_residual(). (Who writes frames needs the rest to choose one.)"""
+        value = residual(coder, k, *models)
+        return -value if mirrored else value
 
 def flags(data, gates, one_lattice):
     """7.4 Flags. Returns for each vertex whether it is fine."""

@@ -64,10 +64,11 @@ def chunk(kind, payload, flags=None):
 KEYS = {"vertices": 1, "faces": 3, "frames_per_gop": 5, "packet_bytes": 7, "decoder_memory": 9, "meshes": 11,
         "mesh_bytes": 13}
 
-def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, **_):
-    """8.2 Memory."""
+def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, shapes=False, **_):
+    """8.2 Memory. shapes: whether meshes have reference shapes."""
     return (2 ** 20 + 160 * vertices + 96 * faces + 4 * packet_bytes + mesh_bytes
-            + (meshes - 1) * (512 + 24 * vertices + 16 * faces))
+            + (meshes - 1) * (512 + 24 * vertices + 16 * faces)
+            + (vertices * (400 + 128 * meshes) + 96 * faces if shapes else 0))
 
 def head(version=(0, 2), others=None, **bounds):
     """others: values of keys that have no name. A bound that is None is left out."""
@@ -99,8 +100,13 @@ def gop_header(mesh_id, first_frame, frame_count, packet_count, planes=(), mode=
     counts = varint(first_frame) + varint(frame_count) + varint(packet_count) + varint(len(planes))
     return struct.pack(f"<I{len(counts)}s{len(planes)}I", mesh_id, counts, *planes) + varint(mode) + fields
 
-def elp_fields(fine_bits, coarse_bits, origin, step, flags=b"", channels=(1,)):
-    return (varint(len(channels)) + b"".join(map(varint, channels)) + bytes([fine_bits, coarse_bits])
+def predictors_of(packets):
+    """The predictors of the frames among packets, as a header names them."""
+    kinds = {kind for kind, _ in packets if 32 <= kind <= 35}
+    return sum(1 << kind - 32 for kind in kinds)
+
+def elp_fields(predictors, fine_bits, coarse_bits, origin, step, flags=b"", channels=(1,)):
+    return (varint(len(channels)) + b"".join(map(varint, channels)) + bytes([predictors, fine_bits, coarse_bits])
             + struct.pack("<4d", *origin, step) + flags)
 
 def digest(values):
@@ -309,6 +315,24 @@ def uniform_order(order):
     coder.finish()
     return b"\2" + coder.data
 
+# 5.3 Reference shape
+class ShapeWriter(reference.ReferenceShape):
+    """Writes a shape whose indices are chosen by a function of vertex, axis, guess and number of cells."""
+    def __init__(self, faces, V, bits, choose):
+        super().__init__(RangeEncoder(), faces, V, bits)
+        self.choose = choose
+
+    def residual(self, v, axis, p, mirrored, g, models):
+        d = self.choose(v, axis, p, 2 ** self.bits) - p
+        value = -d if mirrored else d
+        say_high(self.coder, value >> g, 26)
+        if g > 0:
+            self.coder.say(value >> g - 1 & 1, value % 2 ** (g - 1))
+        return super().residual(v, axis, p, mirrored, g, models)
+
+def reference_shape(bits, neighbours, origin, step, stream):
+    return struct.pack("<2B4d", bits, neighbours, *origin, step) + stream
+
 # 7.4 Flags
 def flags(fine, gates):
     coder = RangeEncoder()
@@ -318,30 +342,34 @@ def flags(fine, gates):
     return coder.data
 
 # 7. Frames
-def say_residual(coder, value, level):
-    """7.3.2 The value."""
-    k = 0 if level <= 10 else (1, 1, 2, 2, 3)[level - 11]
-    high = value >> k
+def say_high(coder, high, longest):
+    """A symbol, or its escape."""
     if -7 <= high <= 7:
         coder.say(high + 7)
     else:
         rest = abs(high) - 7
         length = rest.bit_length() - 1
-        coder.say(15, int(high < 0), *[1] * length, *[0] * (length < 27), rest - 2 ** length)
+        coder.say(15, int(high < 0), *[1] * length, *[0] * (length < longest), rest - 2 ** length)
+
+def say_residual(coder, value, k):
+    """7.3.2 The value."""
+    high = value >> k
+    say_high(coder, high, 27)
     if k > 0:
         coder.say(value - (high << k))
 
 class FrameWriter(reference.Frames):
     """Writes frames whose indices are chosen by a function of vertex, axis, prediction and number of cells."""
-    def __init__(self, gates, fine, fine_bits, coarse_bits, choose):
+    def __init__(self, gates, fine, fine_bits, coarse_bits, choose, turns=None):
         super().__init__(gates, fine, fine_bits, coarse_bits)
         self.choose, self.hashed = choose, b""
+        self.pyramid = PyramidWriter(self, turns) if turns else None
 
     def predict(self, v, axis):
         found = super().predict(v, axis)
         cells = 2 ** (self.B2 - self.shift[v])
         level = sum(found[2] >= threshold for threshold in reference.THRESHOLDS)
-        say_residual(self.coder, self.choose(v, axis, found[0], cells) - found[0], level)
+        say_residual(self.coder, self.choose(v, axis, found[0], cells) - found[0], reference.RAW[level])
         return found
 
     def write(self, predictor):
@@ -354,3 +382,11 @@ class FrameWriter(reference.Frames):
     def digest(self):
         """7.6 The digest."""
         return xxh64(self.hashed)
+
+class PyramidWriter(reference.PyramidFrames):
+    """7.7: what a FrameWriter writes along the pyramid."""
+    def residual(self, coder, v, axis, rounded, mirrored, k, models):
+        cells = 2 ** (self.frames.B2 - self.frames.shift[v])
+        d = self.frames.choose(v, axis, rounded, cells) - rounded
+        say_residual(coder, -d if mirrored else d, k)
+        return super().residual(coder, v, axis, rounded, mirrored, k, models)
