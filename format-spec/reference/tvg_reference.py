@@ -1162,7 +1162,7 @@ class PyramidFrames:
 
     def prediction(self, turn, axis, before):
         if self.f > 0:
-            return self.mean(turn, axis) + self.detail(turn, axis)
+            return clamp(self.mean(turn, axis) + self.detail(turn, axis), 1 - 2 ** 30, 2 ** 30 - 1)
         if turn.neighbours:
             return self.mean(turn, axis)
         nearby = 2 ** (self.frames.B2 - 1) if before is None else self.frames.X[before][axis]
@@ -1172,7 +1172,7 @@ class PyramidFrames:
         """7.7.2 The mean."""
         s = self.frames.shift[turn.vertex]
         total = sum(w * (self.frames.X[q][axis] >> s) for q, w in zip(turn.neighbours, turn.weights))
-        return clamp(128 + total >> 8, -2 ** 29, 2 ** 29)
+        return clamp(128 + total >> 8, 1 - 2 ** 30, 2 ** 30 - 1)
 
     def take_details(self, turn):
         """7.7.3 Details."""
