@@ -64,13 +64,13 @@ class DetailBlend {
       state.detail[0][plane] = detail;
       state.detail[1][plane] += (detail - state.detail[1][plane]) >> 1;
       state.detail[2][plane] += (detail - state.detail[2][plane]) >> 2;
-      state.detail[3][plane] += static_cast<std::int32_t>(
-          (std::int64_t{detail} - state.detail[3][plane]) * slow >> 16);
+      state.detail[3][plane] +=
+          static_cast<std::int32_t>((std::int64_t{detail} - state.detail[3][plane]) * slow >> 16);
     }
   }
 
  private:
-  static constexpr std::int32_t kFirstError = 256;             ///< a cell squared, in 1/256
+  static constexpr std::int32_t kFirstError = 256;            ///< a cell squared, in 1/256
   static constexpr std::int32_t kMostMissed = (1 << 14) - 1;  ///< 256 cells
 
   struct State {
@@ -82,7 +82,8 @@ class DetailBlend {
   static constexpr std::array<std::int32_t, 10> kSlowRates = {65536, 32768, 21845, 16384, 13107,
                                                               10922, 9362,  8192,  7281,  6553};
   /// [number of neighbours]: 2^16 over five times the own error and four times each neighbour's.
-  static constexpr std::array<std::uint32_t, kNearest + 1> kShares = {13107, 7281, 5041, 3855, 3120, 2621, 2259};
+  static constexpr std::array<std::uint32_t, kNearest + 1> kShares = {13107, 7281, 5041, 3855,
+                                                                      3120,  2621, 2259};
   /// 2^(16 - i / 8): how much less a rate counts whose mean squared error is i sixteenths of an octave above
   /// the least.
   static constexpr std::array<std::int32_t, 129> kCredit = [] {

@@ -16,17 +16,18 @@ namespace tvg {
 
 /// What is known of a residual before it is coded. Sizes are in 1/256 of a cell.
 struct Expectation {
-  std::uint32_t size = 0;      ///< expected size of the residual
-  std::uint32_t beside = 0;    ///< sizes at the vertices it is predicted from
-  std::uint32_t before = 0;    ///< size at the vertex itself in the planes before, or a second opinion
-  std::int32_t lost = 0;       ///< the prediction less its rounded value, in 1/64 of a cell, -32 to 32
-  bool first = false;          ///< there are no planes before
+  std::uint32_t size = 0;    ///< expected size of the residual
+  std::uint32_t beside = 0;  ///< sizes at the vertices it is predicted from
+  std::uint32_t before = 0;  ///< size at the vertex itself in the planes before, or a second opinion
+  std::int32_t lost = 0;     ///< the prediction less its rounded value, in 1/64 of a cell, -32 to 32
+  bool first = false;        ///< there are no planes before
 };
 
 class MagnitudeModels {
  public:
   MagnitudeModels() : by_size_(kSizeModels), by_place_(2 * kPlaceModels) {
-    for (std::size_t i = 0; i < kSizeModels; ++i) by_size_[i] = fresh(size_of(i / kParts % kLevels, i >= kFirstOfLarge));
+    for (std::size_t i = 0; i < kSizeModels; ++i)
+      by_size_[i] = fresh(size_of(i / kParts % kLevels, i >= kFirstOfLarge));
     for (std::size_t i = 0; i < by_place_.size(); ++i) {
       const std::size_t beside = i % kPlaceModels / kPlaces, before = i % kPlaces;
       by_place_[i] = fresh((kPlaceSizes[beside] + kPlaceSizes[before]) / 2);
@@ -34,7 +35,8 @@ class MagnitudeModels {
   }
 
   static constexpr std::size_t bytes() {
-    return (kSizeModels + 2 * kPlaceModels) * sizeof(AdaptiveSymbol) + sizeof(residual_alphabet::EscapeLength);
+    return (kSizeModels + 2 * kPlaceModels) * sizeof(AdaptiveSymbol) +
+           sizeof(residual_alphabet::EscapeLength);
   }
 
   /// Codes one residual and returns it; a decoder ignores the argument.
@@ -50,8 +52,9 @@ class MagnitudeModels {
         (known.first ? kPlaceModels : 0) + kPlaces * place_of(known.beside) + place_of(known.before);
     // Where rounding took something, the residual tends to give it back: the sign is told by that.
     const bool turned = known.lost < 0;
-    const std::int32_t coded = residual_alphabet::code(coder, by_size_[by_size], by_place_[by_place], escape_length_,
-                                                       raw_bits, turned ? -residual : residual);
+    const std::int32_t coded =
+        residual_alphabet::code(coder, by_size_[by_size], by_place_[by_place], escape_length_, raw_bits,
+                                turned ? -residual : residual);
     return turned ? -coded : coded;
   }
 
@@ -104,7 +107,8 @@ class MagnitudeModels {
     falling[residual_alphabet::kEscape] = value + 16;
     for (const std::uint64_t weight : falling) sum += weight;
     std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> weights{};
-    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<std::uint16_t>(falling[i] * 0xFFFF / sum);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+      weights[i] = static_cast<std::uint16_t>(falling[i] * 0xFFFF / sum);
     return AdaptiveSymbol(weights, kSeen);
   }
 

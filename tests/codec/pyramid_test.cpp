@@ -45,7 +45,8 @@ TEST(PyramidMode, AutoIsHardlyLargerThanTheSmallerOfTheTwo) {
     const Stream both = encode_sequence(sequence, options_with(Predictor::kAuto));
     // It pays for the shape whatever it chooses, and each choice changes what the models learn.
     EXPECT_LT(static_cast<double>(both.size()), 1.02 * static_cast<double>(std::max(elp, pyramid))) << name;
-    expect_same_frames(decode_stream(both), decode_stream(encode_sequence(sequence, options_with(Predictor::kElp))));
+    expect_same_frames(decode_stream(both),
+                       decode_stream(encode_sequence(sequence, options_with(Predictor::kElp))));
   }
 }
 
@@ -101,7 +102,8 @@ TEST(PyramidMode, AShapeForWhichTooLittleMemoryIsDeclaredIsRefused) {
   Stream stream = encode_sequence(corpus_sequence("cloth", 2), options_with(Predictor::kPyramid));
   StreamLimits limits = decode_stream(stream).head.limits;
   EXPECT_GE(limits.decoder_memory, decoder_memory_with_shapes(limits));
-  const auto head_end = kSignature.size() + read_chunk_header(Bytes(stream).subspan(kSignature.size()))->total_size();
+  const auto head_end =
+      kSignature.size() + read_chunk_header(Bytes(stream).subspan(kSignature.size()))->total_size();
   limits.decoder_memory = decoder_memory_with_shapes(limits) - 1;
   Stream changed(kSignature.begin(), kSignature.end());
   const Stream head = write_chunk(kHeadChunk, false, write_head(limits));

@@ -84,8 +84,8 @@ TEST(Codec, LatticeOfEveryVertexIsTheEncodersOnEverySortOfMesh) {
     if (named.mesh.vertex_count == 0) continue;
     SCOPED_TRACE(named.name);
     const Sequence sequence = random_sequence(named.mesh, 5, random);
-    for (const Predictor predictor : {Predictor::kSpace, Predictor::kTime, Predictor::kElp, Predictor::kPyramid,
-                                      Predictor::kAuto}) {
+    for (const Predictor predictor :
+         {Predictor::kSpace, Predictor::kTime, Predictor::kElp, Predictor::kPyramid, Predictor::kAuto}) {
       EncodeOptions options;
       options.predictor = predictor;
       options.gop_frames = 3;

@@ -242,9 +242,13 @@ const std::vector<ConformanceStream>& conformance_streams() {
       {"pyramid", "predictor pyramid from the first frame on, several GOPs",
        [] { return encode_sequence(corpus_sequence("cloth", 5), options_of(7, 7, Predictor::kPyramid, 3)); }},
       {"pyramid_hybrid", "predictor pyramid, two lattices",
-       [] { return encode_sequence(corpus_sequence("cloth", 3), options_of(8, 6, Predictor::kPyramid, 50)); }},
+       [] {
+         return encode_sequence(corpus_sequence("cloth", 3), options_of(8, 6, Predictor::kPyramid, 50));
+       }},
       {"pyramid_finest", "the pyramid on the finest lattice, 24 bits",
-       [] { return encode_sequence(corpus_sequence("cloth", 2), options_of(24, 24, Predictor::kPyramid, 50)); }},
+       [] {
+         return encode_sequence(corpus_sequence("cloth", 2), options_of(24, 24, Predictor::kPyramid, 50));
+       }},
       {"pyramid_soup", "the pyramid of all that a mesh can do wrong, its order given up", make_pyramid_soup},
       {"auto", "frames predicted by elp and by the pyramid by turns", make_auto},
       {"meshes_again", "two meshes in force, meshes that come again", make_meshes_again},

@@ -17,7 +17,8 @@ bool exhaustive() {
 
 std::vector<std::string_view> damaged_streams() {
   if (!exhaustive())
-    return {"metadata", "step", "hybrid_time", "gops", "two_meshes", "meshes_again", "pyramid_hybrid", "unknown_chunk"};
+    return {"metadata",   "step",         "hybrid_time",    "gops",
+            "two_meshes", "meshes_again", "pyramid_hybrid", "unknown_chunk"};
   std::vector<std::string_view> names;
   for (const auto& stream : conformance::conformance_streams()) names.push_back(stream.name);
   return names;

@@ -67,8 +67,8 @@ Stream long_chunk(ChunkType type, std::uint32_t length) {
 std::vector<Stream> empty_frames() {
   Stream mesh = write_chunk(kMeshChunk, false, write_mesh({1, 0, false, Stream{0}, {}}));
   ByteWriter gop;
-  const Stream fields =
-      write_elp_header(PredictorSet(15), {.origin = {0, 0, 0}, .step = 1e-300, .fine_bits = 24, .coarse_bits = 1}, {});
+  const Stream fields = write_elp_header(
+      PredictorSet(15), {.origin = {0, 0, 0}, .step = 1e-300, .fine_bits = 24, .coarse_bits = 1}, {});
   GopHeader header;
   header.mesh = mesh_id(mesh);
   header.frame_count = 1u << 16;
