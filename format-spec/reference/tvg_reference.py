@@ -739,7 +739,7 @@ class ReferenceShape:
         self.first = [[[shape_model(level) for _ in range(3)] for level in range(22)] for _ in range(2)]
         self.second = [[shape_model(min(21, 2 * place + 10 + (5 if kind == 0 else 0))) for place in range(16)]
                        for kind in range(4)]
-        self.longer, self.top = [[Bit() for _ in range(26)] for _ in range(2)], [Bit() for _ in range(17)]
+        self.longer, self.top = [[Bit() for _ in range(27)] for _ in range(2)], [Bit() for _ in range(17)]
 
     def decode(self):
         for v in self.order():

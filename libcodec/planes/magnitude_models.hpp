@@ -60,7 +60,7 @@ class MagnitudeModels {
 
  private:
   static constexpr std::uint32_t kLargestModelled = 6 * 256;
-  static constexpr std::size_t kLevels = 28;  ///< a third of an octave each, the first up to 1/40 of a cell
+  static constexpr std::size_t kLevels = 26;  ///< a third of an octave each, the first up to 1/40 of a cell
   static constexpr std::size_t kParts = 3;
   static constexpr std::size_t kFirstOfLarge = kLevels * kParts;
   static constexpr std::size_t kSizeModels = 2 * kLevels * kParts;

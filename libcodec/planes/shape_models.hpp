@@ -1,16 +1,15 @@
 #pragma once
 #include "entropy/adaptive_models.hpp"
 #include "entropy/code_bits.hpp"
+#include "planes/residual_alphabet.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 
-// How a reference shape's residual is coded (format-spec §5.3.4): a 16-symbol alphabet under the mean of two
-// adaptive models, which begin with the distribution that the expected size lets expect.
+// How a reference shape's residual is coded (format-spec §5.3.4): the alphabet of residuals, whose models
+// begin with the distribution that the expected size lets expect.
 namespace tvg {
 
 /// What is known about a residual before it is coded.
@@ -41,22 +40,20 @@ class ShapeModels {
   std::int32_t code(Coder& coder, const ShapeChoice& choice, std::int32_t residual) {
     const std::int32_t turned = choice.mirrored ? -residual : residual;
     const std::int32_t wanted = turned >> choice.raw_bits;
-    const bool scaled = choice.raw_bits > 0, fits = wanted >= -kLargest && wanted <= kLargest;
-    const std::uint32_t symbol = coder.code(first_[((scaled ? kLevels : 0) + choice.level) * 3 + choice.lost],
-                                            second_[choice.kind * 16 + choice.around],
-                                            fits ? static_cast<std::uint32_t>(wanted + kLargest) : kEscape);
+    const bool scaled = choice.raw_bits > 0;
+    const std::uint32_t symbol =
+        coder.code(first_[((scaled ? kLevels : 0) + choice.level) * 3 + choice.lost],
+                   second_[choice.kind * 16 + choice.around], residual_alphabet::symbol_of(wanted));
     std::int32_t value = static_cast<std::int32_t>(symbol) - kLargest;
-    if (symbol == kEscape) value = code_escaped(coder, escape_length_[scaled ? 1 : 0], wanted);
+    if (symbol == kEscape)
+      value = residual_alphabet::code_escaped(coder, escape_length_[scaled ? 1 : 0], wanted);
     if (scaled) value = code_low(coder, value, choice.raw_bits, turned);
     return choice.mirrored ? -value : value;
   }
 
  private:
-  static constexpr std::int32_t kLargest = 7;  ///< symbols 0 to 14 are -7 to 7, symbol 15 is the escape
-  static constexpr std::uint32_t kEscape = 15;
-  static constexpr std::int32_t kBound = 1 << 27;
-
-  using Lengths = std::array<AdaptiveBit, 26>;
+  static constexpr std::int32_t kLargest = residual_alphabet::kLargest;
+  static constexpr std::uint32_t kEscape = residual_alphabet::kEscape;
 
   /// [level]: how much less likely each size is than the one before, in 1/32768, where the mean is in the
   /// middle of the level: 5/256 2^((level + 1/2) / 3).
@@ -81,23 +78,6 @@ class ShapeModels {
     return AdaptiveSymbol(weights);
   }
 
-  /// Sizes that the alphabet does not reach: a sign, then Elias' gamma code of what is beyond, its length
-  /// adaptive.
-  template <class Coder>
-  [[gnu::noinline]] static std::int32_t code_escaped(Coder& coder, Lengths& lengths, std::int32_t wanted) {
-    const bool negative = coder.code_raw(wanted < 0 ? 1 : 0, 1) != 0;
-    const auto beyond = static_cast<std::uint32_t>(std::max(std::abs(wanted) - kLargest, 1));
-    const int wanted_length = std::bit_width(beyond) - 1;
-    int length = 0;
-    while (length < static_cast<int>(lengths.size()) &&
-           coder.code(lengths[static_cast<std::size_t>(length)], length < wanted_length)) {
-      ++length;
-    }
-    const std::uint32_t value = (1u << length) | code_bits(coder, beyond, length);
-    const auto size = static_cast<std::int32_t>(std::min<std::uint32_t>(value + kLargest, kBound));
-    return negative ? -size : size;
-  }
-
   /// The low bits below `high`, of which only the first leans to one side.
   template <class Coder>
   std::int32_t code_low(Coder& coder, std::int32_t high, int raw_bits, std::int32_t turned) {
@@ -107,13 +87,14 @@ class ShapeModels {
     const std::uint32_t rest = code_bits(coder, wanted & ((1u << (raw_bits - 1)) - 1), raw_bits - 1);
     const std::int64_t low = (std::int64_t{top} << (raw_bits - 1)) + rest;
     const std::int64_t value = high * (std::int64_t{1} << raw_bits) + low;
-    return static_cast<std::int32_t>(std::clamp<std::int64_t>(value, -kBound, kBound));
+    return static_cast<std::int32_t>(
+        std::clamp<std::int64_t>(value, -residual_alphabet::kBound, residual_alphabet::kBound));
   }
 
-  std::array<AdaptiveSymbol, 2 * kLevels * 3> first_;  ///< [scaled][level][lost]
-  std::array<AdaptiveSymbol, 4 * 16> second_;          ///< [kind][around]
-  std::array<Lengths, 2> escape_length_;               ///< [scaled]
-  std::array<AdaptiveBit, 2 * kLargest + 3> top_;      ///< [high]
+  std::array<AdaptiveSymbol, 2 * kLevels * 3> first_;             ///< [scaled][level][lost]
+  std::array<AdaptiveSymbol, 4 * 16> second_;                     ///< [kind][around]
+  std::array<residual_alphabet::EscapeLength, 2> escape_length_;  ///< [scaled]
+  std::array<AdaptiveBit, 2 * kLargest + 3> top_;                 ///< [high]
 };
 
 }  // namespace tvg
