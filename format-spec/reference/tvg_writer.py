@@ -325,7 +325,7 @@ class ShapeWriter(reference.ReferenceShape):
     def residual(self, v, axis, p, mirrored, g, models):
         d = self.choose(v, axis, p, 2 ** self.bits) - p
         value = -d if mirrored else d
-        say_high(self.coder, value >> g, 26)
+        say_high(self.coder, value >> g)
         if g > 0:
             self.coder.say(value >> g - 1 & 1, value % 2 ** (g - 1))
         return super().residual(v, axis, p, mirrored, g, models)
@@ -342,19 +342,19 @@ def flags(fine, gates):
     return coder.data
 
 # 7. Frames
-def say_high(coder, high, longest):
+def say_high(coder, high):
     """A symbol, or its escape."""
     if -7 <= high <= 7:
         coder.say(high + 7)
     else:
         rest = abs(high) - 7
         length = rest.bit_length() - 1
-        coder.say(15, int(high < 0), *[1] * length, *[0] * (length < longest), rest - 2 ** length)
+        coder.say(15, int(high < 0), *[1] * length, *[0] * (length < 27), rest - 2 ** length)
 
 def say_residual(coder, value, k):
     """7.3.2 The value."""
     high = value >> k
-    say_high(coder, high, 27)
+    say_high(coder, high)
     if k > 0:
         coder.say(value - (high << k))
 
