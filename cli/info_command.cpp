@@ -131,9 +131,19 @@ StreamSummary summarize(const std::string& path, bool bits) {
   return summary;
 }
 
+/// Names of the predictors that frames of a GOP may have.
+std::vector<std::string> predictors_of(const GopInfo& gop) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < gop.predictors.size(); ++i) {
+    if (gop.predictors[i]) names.emplace_back(kPredictorNames[i]);
+  }
+  return names;
+}
+
 nlohmann::json to_json(const GopInfo& gop) {
   return {{"first_frame", gop.first_frame},
           {"frame_count", gop.frame_count},
+          {"predictors", predictors_of(gop)},
           {"fine_bits", gop.fine_bits},
           {"coarse_bits", gop.coarse_bits},
           {"origin", gop.origin},
@@ -194,8 +204,8 @@ void print_purposes(const StreamSummary& summary) {
 
 void print_gops(const StreamSummary& summary) {
   const StreamSurvey& stream = summary.stream;
-  fmt::print("\nGOPs\n  {:>8} {:>7} {:>6} {:>9} {:>12} {:>9}\n", "first", "frames", "bits", "step", "bytes",
-             summary.decoded ? "flagged" : "");
+  fmt::print("\nGOPs\n  {:>8} {:>7} {:>6} {:>9} {:>12} {:>9}  {}\n", "first", "frames", "bits", "step",
+             "bytes", summary.decoded ? "flagged" : "", "predictors");
   for (std::size_t i = 0; i < stream.gops.size(); ++i) {
     const GopInfo& gop = stream.gops[i];
     const std::string bits = gop.fine_bits == gop.coarse_bits
@@ -203,9 +213,9 @@ void print_gops(const StreamSummary& summary) {
                                  : fmt::format("{}:{}", gop.fine_bits, gop.coarse_bits);
     std::string flagged;
     if (const auto count = summary.flagged(gop))
-      flagged = fmt::format("{:>7.1f} %", 100.0 * *count / stream.meshes[stream.gop_meshes[i]].vertices);
-    fmt::print("  {:>8} {:>7} {:>6} {:>9.4g} {:>12} {}\n", gop.first_frame, gop.frame_count, bits, gop.step,
-               gop.bytes, flagged);
+      flagged = fmt::format("{:.1f} %", 100.0 * *count / stream.meshes[stream.gop_meshes[i]].vertices);
+    fmt::print("  {:>8} {:>7} {:>6} {:>9.4g} {:>12} {:>9}  {}\n", gop.first_frame, gop.frame_count, bits,
+               gop.step, gop.bytes, flagged, fmt::join(predictors_of(gop), ", "));
   }
 }
 
