@@ -69,9 +69,9 @@ class MagnitudeModels {
 
   /// floor(3 log2(x)), nearly.
   static constexpr std::size_t thirds(std::uint32_t x) {
-    const int whole = std::bit_width(x) - 1;
+    const auto whole = static_cast<std::size_t>(std::bit_width(x)) - 1;
     const std::uint32_t part = static_cast<std::uint32_t>((std::uint64_t{x} << 6) >> whole) & 63;
-    return static_cast<std::size_t>(3 * whole + (part >= 37 ? 2 : part >= 17 ? 1 : 0));
+    return 3 * whole + (part >= 37 ? 2u : part >= 17 ? 1u : 0u);
   }
   static constexpr std::size_t level_of(std::uint32_t size) {
     constexpr std::size_t kBefore = thirds(5);
