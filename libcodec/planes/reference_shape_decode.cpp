@@ -51,9 +51,10 @@ Result<ReferenceShape> decode_reference_shape(Bytes section, std::span<const Fac
   Result<ReferenceShape> shape = read_lattice(reader);
   if (!shape) return shape;
   constexpr std::size_t kPerVertex = ShapeCoder::kBytesPerVertex + sizeof(ShapeCoder::Position);
+  const std::size_t vertices = vertex_count;
   if (faces.size() > static_cast<std::size_t>(-1) / 8 / ShapeCoder::kBytesPerFace ||
-      vertex_count > static_cast<std::size_t>(-1) / 8 / kPerVertex ||
-      !can_allocate(kPerVertex * vertex_count + ShapeCoder::kBytesPerFace * faces.size() +
+      vertices > static_cast<std::size_t>(-1) / 8 / kPerVertex ||
+      !can_allocate(kPerVertex * vertices + ShapeCoder::kBytesPerFace * faces.size() +
                     ShapeCoder::kModelBytes + kSmallThings)) {
     return out_of_memory();
   }
