@@ -101,7 +101,8 @@ std::size_t decode(std::span<const std::uint8_t> stream, std::size_t piece, std:
         break;
       case Decoder::Event::kEnd:
       case Decoder::Event::kError:
-        return std::size_t{decoder.head().limits.decoder_memory} +
+        return static_cast<std::size_t>(
+                   std::max(decoder.head().limits.decoder_memory, tvg::decoder_memory_needed({}))) +
                80 * std::size_t{decoder.head().limits.vertices};
       default:
         break;
