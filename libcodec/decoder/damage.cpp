@@ -2,9 +2,17 @@
 
 #include "base/stream_error.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tvg {
+
+namespace {
+
+/// Labels are made up as easily as not: what they say is lost never counts further than a label can.
+constexpr std::uint64_t kMostFrames = std::uint64_t{1} << 62;
+
+}  // namespace
 
 Damage DamageLedger::lose(std::uint64_t frames, Error cause) {
   cause.frame = position_;
@@ -39,6 +47,7 @@ std::uint64_t DamageLedger::meet_gop(std::uint64_t label, std::uint32_t frame_co
     } else if (label_known_ && label > expected_label_) {
       missing = label - expected_label_;
     }
+    missing = std::min(missing, kMostFrames - std::min(position_, kMostFrames));
     if (missing > 0 && !unknown_) unknown_ = malformed("§8.3", "the damage reaches into the next GOP");
   }
   expected_label_ = label + frame_count;
