@@ -94,8 +94,6 @@ class ChunkReader {
   const ChunkWindow& meshes() const { return meshes_; }
   /// Its parts are valid no longer than content().
   const GopHeader& gop() const { return gop_; }
-  /// Of kGop: where the chunk of its mesh begins.
-  std::uint64_t gop_mesh_offset() const { return gop_mesh_offset_; }
   Predictor predictor() const { return predictor_; }
   Bytes content() const { return content_; }
   /// The bytes of the structure given out last as they stand in the stream: of kChunk the chunk's header, of
@@ -111,8 +109,6 @@ class ChunkReader {
   Error& error() { return error_; }
 
   bool has_head() const { return state_ != StreamState::kStart; }
-  /// Whether all from the first byte on was read and nothing of it lost.
-  bool whole() const { return whole_; }
   StreamState state() const { return state_; }
   /// Of the structure given out last, or the first byte not read.
   std::uint64_t offset() const { return offset_; }
@@ -209,7 +205,6 @@ class ChunkReader {
   ChunkWindow plans_;
 
   GopHeader gop_;
-  std::uint64_t gop_mesh_offset_ = 0;
   Predictor predictor_ = Predictor::kSpace;
   std::uint32_t packet_number_ = 0;    ///< of the next packet: 0 the header
   std::uint32_t frames_met_ = 0;       ///< of the GOP
@@ -223,7 +218,7 @@ class ChunkReader {
 
   std::optional<std::uint64_t> reported_at_;  ///< where a chunk stands that was said to be out of place
 
-  bool whole_ = true;
+  bool whole_ = true;               ///< all from the first byte on was read and nothing of it lost
   std::uint64_t read_in_vain_ = 0;  ///< bytes of structures that did not fit their checksums
   Problem problem_;
   Error error_;

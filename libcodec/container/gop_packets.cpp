@@ -104,7 +104,6 @@ ChunkReader::Event ChunkReader::use_gop_header() {
     return lose_gop(
         {"§4.5.1", "the GOP is in a mode that this decoder does not know", ErrorCode::kUnsupported});
   }
-  gop_mesh_offset_ = mesh->offset;
   packet_number_ = 1;
   frames_met_ = 0;
   return Event::kGop;

@@ -100,16 +100,12 @@ class MagnitudeModels {
     constexpr std::uint8_t kSeen = 6;
     const std::uint32_t factor = kOne / (256 + size) * size + 256;  // size / (1 + size)
     std::array<std::uint64_t, AdaptiveSymbol::kMaxSymbols> falling{};
-    std::uint64_t value = kOne, sum = 0;
+    std::uint64_t value = kOne;
     for (std::int32_t r = 0; r <= residual_alphabet::kLargest; ++r, value = value * factor >> 16) {
       falling[residual_alphabet::symbol_of(r)] = falling[residual_alphabet::symbol_of(-r)] = value + 16;
     }
     falling[residual_alphabet::kEscape] = value + 16;
-    for (const std::uint64_t weight : falling) sum += weight;
-    std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> weights{};
-    for (std::size_t i = 0; i < weights.size(); ++i)
-      weights[i] = static_cast<std::uint16_t>(falling[i] * 0xFFFF / sum);
-    return AdaptiveSymbol(weights, kSeen);
+    return residual_alphabet::model_of(falling, kSeen);
   }
 
   std::vector<AdaptiveSymbol> by_size_;   ///< [small, large][level][part]

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/byte_io.hpp"
 #include "connectivity/mesh_coder.hpp"
+#include "prediction/pyramid.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,12 +16,11 @@ namespace tvg {
 /// §5.3).
 struct ReferenceShape {
   static constexpr int kMostBits = 24;
-  static constexpr std::uint32_t kFewestNeighbours = 4, kMostNeighbours = 16;
 
   std::array<double, 3> origin{};                    ///< [xyz], finite, in mesh units: the smallest corner
   double step = 1;                                   ///< finite and above 0, in mesh units
   int bits = 1;                                      ///< 1 to kMostBits: indices lie in [0, 2^bits)
-  std::uint32_t neighbours = kFewestNeighbours;      ///< of a vertex in the pyramid
+  std::uint32_t neighbours = kMinPyramidNeighbours;  ///< of a vertex in the pyramid
   std::vector<std::array<std::int32_t, 3>> indices;  ///< [traversal index][xyz]
 
   bool operator==(const ReferenceShape&) const = default;

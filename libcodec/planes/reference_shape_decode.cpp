@@ -22,8 +22,7 @@ Result<ReferenceShape> read_lattice(ByteReader& reader) {
   if (!reader.ok()) return malformed(kSection, "the reference shape ends before its residuals");
   if (shape.bits < 1 || shape.bits > ReferenceShape::kMostBits)
     return malformed(kSection, "the reference shape's lattice has a width that is not allowed");
-  if (shape.neighbours < ReferenceShape::kFewestNeighbours ||
-      shape.neighbours > ReferenceShape::kMostNeighbours) {
+  if (shape.neighbours < kMinPyramidNeighbours || shape.neighbours > kMaxPyramidNeighbours) {
     return malformed(kSection, "the number of neighbours is not allowed");
   }
   bool finite = std::isfinite(shape.step) && shape.step > 0;

@@ -27,6 +27,17 @@ constexpr std::uint32_t symbol_of(std::int32_t residual) {
   return fits ? static_cast<std::uint32_t>(residual + kLargest) : kEscape;
 }
 
+/// A model in which symbols are as likely as these shares say, which are below 2^48 each.
+inline AdaptiveSymbol model_of(const std::array<std::uint64_t, AdaptiveSymbol::kMaxSymbols>& shares,
+                               std::uint8_t seen) {
+  std::uint64_t sum = 0;
+  for (const std::uint64_t share : shares) sum += share;
+  std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> weights{};
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    weights[i] = static_cast<std::uint16_t>(shares[i] * 0xFFFF / sum);
+  return AdaptiveSymbol(weights, seen);
+}
+
 /// Sizes that the alphabet does not reach: a sign, then Elias' gamma code of what is beyond, its length
 /// adaptive.
 template <class Coder>

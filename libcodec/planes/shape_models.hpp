@@ -65,17 +65,13 @@ class ShapeModels {
   static AdaptiveSymbol model_of(std::size_t level) {
     const std::uint64_t fall = kFall[level];
     std::array<std::uint64_t, kEscape + 1> share{};
-    std::uint64_t size = 1 << 20, sum = 0;
+    std::uint64_t size = 1 << 20;
     for (std::size_t i = 0; i <= kLargest; ++i) {
       share[kLargest + i] = share[kLargest - i] = size;
       size = size * fall >> 15;
     }
     share[kEscape] = 2 * (size << 15) / (32768 - fall);
-    for (const std::uint64_t s : share) sum += s;
-    std::array<std::uint16_t, kEscape + 1> weights{};
-    for (std::size_t i = 0; i <= kEscape; ++i)
-      weights[i] = static_cast<std::uint16_t>(share[i] * 0xFFFF / sum);
-    return AdaptiveSymbol(weights);
+    return residual_alphabet::model_of(share, 0);
   }
 
   /// The low bits below `high`, of which only the first leans to one side.

@@ -244,7 +244,7 @@ TEST(ChunkReader, GoesOnAtAnyChunk) {
   EXPECT_EQ(reader.next(), Event::kChunk);
   EXPECT_EQ(reader.chunk_offset(), 1000000u);
   EXPECT_EQ(reader.next(), Event::kGop);
-  EXPECT_EQ(reader.gop_mesh_offset(), mesh[0]);
+  EXPECT_EQ(reader.meshes().find(reader.gop().mesh)->offset, mesh[0]);
   reader.pass_over();
   EXPECT_EQ(reader.next(), Event::kNeedBytes);
   EXPECT_TRUE(reader.at_chunk());
