@@ -41,6 +41,9 @@ class Lanes {
   friend Lanes operator^(Lanes a, Lanes b) {
     return Lanes(a.lanes_ ^ b.lanes_);
   }
+  friend Lanes operator|(Lanes a, Lanes b) {
+    return Lanes(a.lanes_ | b.lanes_);
+  }
   friend Lanes operator<<(Lanes a, int bits) {
     return Lanes(a.lanes_ << bits);
   }
@@ -52,6 +55,11 @@ class Lanes {
   }
   friend Lanes operator<(Lanes a, std::int32_t b) {
     return Lanes(a.lanes_ < b);
+  }
+  friend bool any(Lanes a) {
+    using Halves [[gnu::vector_size(sizeof(Quad))]] = std::int64_t;
+    const auto halves = reinterpret_cast<Halves>(a.lanes_);
+    return (halves[0] | halves[1]) != 0;
   }
 
  private:
@@ -72,6 +80,9 @@ class Lanes {
   friend Lanes operator^(Lanes a, Lanes b) {
     return each([&](std::size_t i) { return a[i] ^ b[i]; });
   }
+  friend Lanes operator|(Lanes a, Lanes b) {
+    return each([&](std::size_t i) { return a[i] | b[i]; });
+  }
   friend Lanes operator<<(Lanes a, int bits) {
     return each([&](std::size_t i) { return a[i] << bits; });
   }
@@ -83,6 +94,9 @@ class Lanes {
   }
   friend Lanes operator<(Lanes a, std::int32_t b) {
     return each([&](std::size_t i) { return a[i] < b ? -1 : 0; });
+  }
+  friend bool any(Lanes a) {
+    return (a[0] | a[1] | a[2] | a[3]) != 0;
   }
 
  private:

@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -38,9 +37,10 @@ constexpr std::int32_t shift_to_coarse(std::int32_t fine_index, int shift) {
 /// Index of a coordinate on the fine lattice (Algorithm 1): floor((x - origin) / step), clamped to the
 /// lattice.
 inline std::int32_t quantize(double coordinate, double origin, const Lattice& lattice) {
-  const double cell = std::floor((coordinate - origin) / lattice.step);
-  const double last = static_cast<double>((std::int64_t{1} << lattice.fine_bits) - 1);
-  return static_cast<std::int32_t>(cell < 0 ? 0 : cell > last ? last : cell);
+  const double cells = (coordinate - origin) / lattice.step;
+  const std::int32_t last = static_cast<std::int32_t>((std::int64_t{1} << lattice.fine_bits) - 1);
+  // Between the bounds, what a conversion cuts off is what floor() would.
+  return cells < 0 ? 0 : cells >= last ? last : static_cast<std::int32_t>(cells);
 }
 
 /// Centre of a cell, in the order of operations that every decoder uses: origin + (index + 0.5) * step in

@@ -32,6 +32,13 @@ TEST(Lanes, FunctionsDoWhatTheirNamesSay) {
     EXPECT_EQ(clamp<7>(lanes)[2], std::clamp(x, -7, 7));
     EXPECT_EQ((lanes > 2)[0], x > 2 ? -1 : 0);
     EXPECT_EQ((lanes < -2)[0], x < -2 ? -1 : 0);
+    EXPECT_EQ((lanes | Lanes::all(6))[1], x | 6);
+    EXPECT_EQ(any(lanes), x != 0);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+      Quad one{};
+      one[lane] = x;
+      EXPECT_EQ(any(Lanes(one)), x != 0);
+    }
   }
 }
 

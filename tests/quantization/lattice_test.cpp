@@ -1,5 +1,6 @@
 #include "quantization/lattice.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <gtest/gtest.h>
@@ -29,6 +30,22 @@ TEST(Lattice, CoordinatesOutsideTheBoxGoToTheNearestCell) {
   EXPECT_EQ(quantize(-1e30, -1, lattice), 0);
   EXPECT_EQ(quantize(3.01, -1, lattice), 15);
   EXPECT_EQ(quantize(1e30, -1, lattice), 15);
+}
+
+TEST(Lattice, QuantizesToTheFloorOfTheQuotientAsBinary64HasIt) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> anywhere(-0.1, 1.1), exponent(-30, 30);
+  for (int round = 0; round < 20000; ++round) {
+    const double step = std::exp2(exponent(random)), origin = anywhere(random) * step * 1e4;
+    const Lattice lattice{{}, step, 1 + static_cast<int>(random() % 24), 1};
+    const double cells = std::exp2(lattice.fine_bits) * anywhere(random);
+    const double whole = std::floor(cells) * step;
+    for (const double x : {origin + cells * step, origin + whole, std::nextafter(origin + whole, -1e300)}) {
+      const double expected =
+          std::clamp(std::floor((x - origin) / step), 0.0, std::exp2(lattice.fine_bits) - 1);
+      ASSERT_EQ(quantize(x, origin, lattice), static_cast<std::int32_t>(expected));
+    }
+  }
 }
 
 TEST(Lattice, ReconstructsAtTheCentreOfTheCell) {
