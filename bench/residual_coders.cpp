@@ -29,6 +29,7 @@ class TracingCoder {
  public:
   static constexpr bool kDecoding = false;
 
+  TracingCoder& lane(std::size_t /*plane*/) { return *this; }
   std::uint32_t code(AdaptiveSymbol& first, AdaptiveSymbol& second, std::uint32_t symbol) {
     trace.push_back({number(&first), number(&second), symbol});
     return symbol;

@@ -17,7 +17,7 @@ def written(use, *values):
     try:
         use(coder)
     except (reference.Invalid, IndexError):  # it has read what breaks a rule, or all that there is
-        coder.queue.clear()
+        coder.clear()
     coder.finish()
     return coder.data
 
@@ -40,6 +40,14 @@ ELP_FIELDS = {"fine_bits": 6, "coarse_bits": 4, "origin": (0.0, -1.0, 0.5), "ste
 def choose(v, axis, prediction, cells):
     return (v * 5 + axis * 3 + prediction // 2) % cells
 
+def at_meeting(remove, insert):
+    """Changes the bytes of a stream between its ends: some before they meet are removed, others inserted."""
+    return lambda content: content[:content.front - remove] + insert + content[content.front:]
+
+def recoded(change):
+    """Changes the second frame's stream."""
+    return lambda packets: [packets[0], (packets[1][0], change(packets[1][1])), packets[2]]
+
 def gop(number=1, header=None, fields=None, edit=None, choose_index=choose, predictors=(SPACE, ELP), turns=None):
     """The payload of GOP number: with changed fields of the header, and its packets behind the header edited."""
     frames, packets = writer.FrameWriter(GATES, FINE, 6, 4, choose_index, turns), []
@@ -47,7 +55,7 @@ def gop(number=1, header=None, fields=None, edit=None, choose_index=choose, pred
         try:
             content = frames.write(predictor)
         except reference.Invalid:
-            frames.coder.queue.clear()
+            frames.coder.clear()
             frames.coder.finish()
             content = frames.coder.data
         packets.append((32 + predictor, content))

@@ -3,8 +3,9 @@ import struct
 
 import tvg_reference as reference
 import tvg_writer as writer
-from negative_base import (BOUNDS, CONNECTIVITY, ELP_FIELDS, FRAMES, GATES, MESH_ID, OTHER_ID, PLAN, choose,
-                           connectivity, gop, of_broken_meshes, put, put_gop, put_named, stream, written)
+from negative_base import (BOUNDS, CONNECTIVITY, ELP_FIELDS, FRAMES, GATES, MESH_ID, OTHER_ID, PLAN, at_meeting,
+                           choose, connectivity, gop, of_broken_meshes, put, put_gop, put_named, recoded, stream,
+                           written)
 from tvg_reference import TIME
 from tvg_writer import varint
 
@@ -150,7 +151,6 @@ def geometry():
         "connectivity_empty": ("limit-exceeded", "5.1", section(4, 1, b"")),
         "connectivity_cut": ("malformed", "6.1", section(8, 4, connectivity(8, 4, *root, 0, 0, 0, 0)[:1])),
         "connectivity_left_over": ("malformed", "6.1", section(4, 1, CONNECTIVITY + b"\0")),
-        "connectivity_out_of_range": ("malformed", "6.1", section(4, 1, b"\xff" * 5)),
         "vertices_too_many": ("malformed", "5.1.1", section(2, 1, connectivity(3, 1, *root, 0))),
         "operation_unknown": ("malformed", "5.1.2", section(4, 2, connectivity(4, 2, *root, 6))),
         "candidate_unknown": ("malformed", "5.1.2", section(4, 2, connectivity(4, 2, *root, 4, 15))),
@@ -174,30 +174,36 @@ def frames():
         return f"frame_{name}", "malformed", section, FRAMES - 2, stream(
             GOP1=put_gop(gop(edit=edit, choose_index=choose_index)))
 
-    def recoded(change):
-        return lambda packets: [packets[0], (packets[1][0], change(packets[1][1])), packets[2]]
-
     yield frame("above_the_lattice", "7.5", choose_index=lambda v, axis, prediction, cells: cells)
     yield frame("below_the_lattice", "7.5", choose_index=lambda v, axis, prediction, cells: -1)
     yield frame("far_outside", "7.5", choose_index=lambda v, axis, prediction, cells: 2 ** 27)
     yield frame("empty", "6.1", edit=recoded(lambda content: b""))
-    yield frame("left_over", "6.1", edit=recoded(lambda content: content + b"\0"))
-    yield frame("cut", "6.1", edit=recoded(lambda content: content[:-2]))
-    yield frame("out_of_range", "6.1", edit=recoded(lambda content: b"\xff" * len(content)))
-    yield frame("last_bits", "6.1", edit=recoded(with_last_bit))
-    yield frame("not_settled", "6.1", choose_index=choose_unsettled, edit=recoded(with_next_code))
+    yield frame("between_the_ends", "6.1", edit=recoded(at_meeting(0, b"\0")))
+    yield frame("cut", "6.1", edit=recoded(at_meeting(1, b"")))
+    for end in ("front", "back"):
+        for name, change in ((f"last_bits_of_the_{end}", with_last_bit), (f"{end}_not_settled", with_next_code)):
+            yield frame(name, "6.1", choose_index=choose_unsettled, edit=recoded(changed(end, change)))
 
-def with_last_bit(content):
-    assert content[-1] % 2 == 0
-    return content[:-1] + bytes([content[-1] | 1])
+def changed(end, change):
+    """Changes one of the streams that a two-ended one is made of."""
+    def result(content):
+        front, back = content[:content.front], content[content.front:]
+        return change(front) + back if end == "front" else front + change(back[::-1])[::-1]
+    return result
+
+def with_last_bit(data):
+    """A bit that is set in what fills the last byte."""
+    assert data[-1] % 2 == 0
+    return data[:-1] + bytes([data[-1] | 1])
 
 def choose_unsettled(v, axis, prediction, cells):
-    return (v + axis) % cells
+    """Streams of both ends that have bits to fill the last byte, and a next code that is decoded to the same."""
+    return (2 * v + 2 * axis + prediction // 2) % cells
 
-def with_next_code(content):
+def with_next_code(data):
     """The next larger stream of as many bits, which is decoded to the same frame."""
-    bit = content[-1] & -content[-1]
-    return content[:-1] + bytes([content[-1] + bit])
+    code = int.from_bytes(data, "big")
+    return (code + (code & -code)).to_bytes(len(data), "big")
 
 def cases():
     for group in (packets, headers, geometry, frames):

@@ -1,7 +1,8 @@
 """Negative streams of reference shapes (§5.3), of predictors (§4.5) and of frames along the pyramid (§7.7)."""
 import tvg_reference as reference
 import tvg_writer as writer
-from negative_base import (BOUNDS, CONNECTIVITY, FRAMES, choose, gop, of_broken_meshes, put, put_gop, put_named, stream)
+from negative_base import (BOUNDS, CONNECTIVITY, FRAMES, at_meeting, choose, gop, of_broken_meshes, put, put_gop,
+                           put_named, recoded, stream)
 from tvg_reference import ELP, PYRAMID, SPACE
 
 HEAD = put(b"HEAD", writer.head(**(BOUNDS | {"decoder_memory": writer.memory(**BOUNDS, shapes=True)})))
@@ -13,7 +14,7 @@ def points(choose_index=choose):
     try:
         shape.decode()
     except reference.Invalid:
-        shape.coder.queue.clear()
+        shape.coder.clear()
         shape.coder.finish()
     return shape.coder.data
 
@@ -42,8 +43,7 @@ def shapes():
         "step_infinite": shape(step=infinity),
     }
     sections |= {name: shape(stream=points(choose_index)) for name, choose_index in of_lattice.items()}
-    streams = {"without_stream": b"", "left_over": points() + b"\0", "cut": points()[:-2],
-               "out_of_range": b"\xff" * len(points())}
+    streams = {"without_stream": b"", "left_over": points() + b"\0", "cut": points()[:-2]}
     cases = {f"shape_{name}": ("malformed", "5.3", mesh(section)) for name, section in sections.items()}
     cases |= {f"shape_{name}": ("malformed", "6.1", mesh(shape(stream=data))) for name, data in streams.items()}
     yield from of_broken_meshes(cases, HEAD=HEAD)
@@ -85,16 +85,12 @@ def frames():
     def case(name, section, **changed):
         return f"pyramid_{name}", "malformed", section, FRAMES - 2, of_shape(along(**changed))
 
-    def recoded(change):
-        return lambda packets: [packets[0], (packets[1][0], change(packets[1][1])), packets[2]]
-
     yield case("above_the_lattice", "7.5", choose_index=lambda v, axis, prediction, cells: cells)
     yield case("below_the_lattice", "7.5", choose_index=lambda v, axis, prediction, cells: -1)
     yield case("far_outside", "7.5", choose_index=lambda v, axis, prediction, cells: 2 ** 26)
     yield case("empty", "6.1", edit=recoded(lambda content: b""))
-    yield case("left_over", "6.1", edit=recoded(lambda content: content + b"\0"))
-    yield case("cut", "6.1", edit=recoded(lambda content: content[:-1]))
-    yield case("out_of_range", "6.1", edit=recoded(lambda content: b"\xff" * len(content)))
+    yield case("between_the_ends", "6.1", edit=recoded(at_meeting(0, b"\0")))
+    yield case("cut", "6.1", edit=recoded(at_meeting(1, b"")))
 
 def cases():
     for group in (shapes, predictors, frames):

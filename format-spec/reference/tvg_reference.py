@@ -328,7 +328,7 @@ class Decoder:
             require(decoded < header.frame_count, "4.5", "more frames than frame_count")
             require(header.predictors >> kind - 32 & 1, "4.5.2", "a predictor that the header does not name")
             require(decoded > 0 or kind in (32, 35), "4.5.2", "nothing is there to predict the first frame from")
-            frames.frame(RangeDecoder(header.positions(content), "7.5"), kind - 32)
+            frames.frame(TwoEnded(header.positions(content), "7.5"), kind - 32)
             decoded += 1
             hashed += b"".join(struct.pack("<3i", *index) for index in frames.X)
             self.output(mesh, frames, header)
@@ -826,39 +826,37 @@ class ReferenceShape:
 class RangeDecoder:
     """6.1 The range coder. user: the section whose stream this is, for messages."""
     def __init__(self, data, user):
-        self.data, self.user, self.range, self.shifted = data, user, 2 ** 32 - 1, 0
-        self.code = int.from_bytes(data[:4].ljust(4, b"\0"), "big")
+        self.data, self.user, self.range, self.shifted = data, user, 2 ** 15, 0
+        self.code = self.bits_at(0, 15)
 
     def check(self, condition, what):
         require(condition, "6.1", f"{what}, in the stream of §{self.user}")
 
-    def next_bit(self):
-        byte, bit = divmod(32 + self.shifted, 8)
-        self.shifted += 1
+    def bits_at(self, place, count):
+        """Bits of the stream, zero bits behind its end."""
+        begin, end = place // 8, (place + count + 7) // 8
+        some = int.from_bytes(self.data[begin:end].ljust(end - begin, b"\0"), "big")
+        return some >> -(place + count) % 8 & 2 ** count - 1
+
+    def shift(self, count):
+        self.code = self.code << count | self.bits_at(15 + self.shifted, count)
+        self.shifted += count
         self.check(self.shifted <= 8 * len(self.data), "more bits are used than there are")
-        return self.data[byte] >> (7 - bit) & 1 if byte < len(self.data) else 0
 
-    def interval(self, low, frequency):
-        unit = self.range >> 15
-        self.code -= unit * low
-        self.range = unit * frequency
-        while self.range < 2 ** 31:
+    def interval(self, low, high):
+        self.code -= low
+        self.range = high - low
+        while self.range < 2 ** 15:
             self.range *= 2
-            self.code = 2 * self.code + self.next_bit()
-
-    def target(self):
-        t = self.code // (self.range >> 15)
-        self.check(t < 2 ** 15, "code out of range")
-        return t
+            self.shift(1)
 
     def symbol(self, a, b=None):
         """An adaptive symbol, coded with models a and b, or with a taken twice."""
-        first, second = a.c, (b or a).c
-        t, s, low, high = self.target(), 0, 0, (first[1] + second[1] + 1 >> 1) + 4
-        while high <= t:
+        first, second, s, low, high = a.c, (b or a).c, -1, 0, 0
+        while high <= self.code:
             s, low = s + 1, high
-            high = (first[s + 1] + second[s + 1] + 1 >> 1) + 4 * (s + 1) if s < 15 else 2 ** 15
-        self.interval(low, high - low)
+            high = (first[s + 1] + second[s + 1] + 8 * (s + 1)) * self.range >> 16 if s < 15 else self.range
+        self.interval(low, high)
         a.adapt(s)
         if b is not None and b is not a:
             b.adapt(s)
@@ -866,30 +864,41 @@ class RangeDecoder:
 
     def bit(self, model):
         """An adaptive bit."""
-        zero = model.zero()
-        value = self.target() >= zero  # the same as code >= (range >> 15) * zero
-        self.interval(*((zero, 2 ** 15 - zero) if value else (0, zero)))
+        boundary = model.zero() * self.range >> 15
+        value = self.code >= boundary
+        self.interval(*((boundary, self.range) if value else (0, boundary)))
         model.adapt(value)
         return value
 
     def raw(self, k):
-        v = self.target() >> (15 - k)
-        self.interval(v << (15 - k), 1 << (15 - k))
-        return v
-
-    def bits(self, k):
-        value = 0
-        while k > 0:
-            m = min(k, 15)
-            k -= m
-            value = value * 2 ** m + self.raw(m)
+        self.shift(k)
+        value, self.code = divmod(self.code, self.range)
         return value
 
+    bits = raw
+
+    def size(self):
+        """What must hold after the last symbol; returns how many bytes the stream has."""
+        size, behind = (self.shifted + 8) // 8, self.bits_at(self.shifted + 1, 14)
+        self.check(size <= len(self.data), "more bits are used than there are")
+        self.check(self.bits_at(self.shifted + 1, 8 * size - self.shifted - 1) == 0, "the last bits are not zero")
+        self.check(0 <= self.code - behind < 2 ** 14, "the last interval is not settled")
+        return size
+
     def finish(self):
-        length = len(self.data)
-        self.check(length == (self.shifted + 8) // 8, "wrong length")
-        self.check(self.data[-1] % 2 ** (8 * length - self.shifted - 1) == 0, "the last bits are not zero")
-        self.check(self.code < 2 ** 31, "the last interval is not settled")
+        self.check(self.size() == len(self.data), "wrong length")
+
+class TwoEnded:
+    """6.1.1 Streams with two ends."""
+    def __init__(self, data, user):
+        self.front, self.back = RangeDecoder(data, user), RangeDecoder(data[::-1], user)
+
+    def lane(self, axis):
+        return self.back if axis == 1 else self.front
+
+    def finish(self):
+        front, back = self.front, self.back
+        front.check(front.size() + back.size() == len(front.data), "the ends do not meet")
 
 # 6.2 Adaptive models
 class Bit:
@@ -918,18 +927,17 @@ def scaled(shares):
 EVEN = {N: start([1] * N + [0] * (16 - N), N) for N in range(2, 17)}
 
 class Symbol:
-    """An adaptive symbol: of N equally likely ones, or with 16 weights."""
+    """An adaptive symbol: of N equally likely ones, or with 16 weights. seen: c[0] at first."""
     S = 2 ** 15 - 64
 
-    def __init__(self, N=16, weights=None, count=0):
-        self.count = count
+    def __init__(self, N=16, weights=None, seen=0):
         self.c = start(weights, 65535) if weights else EVEN[N][:]
+        self.c[0] = seen
 
     def adapt(self, s):
-        rate = 2 + (self.count >= 2) + (self.count >= 6) + (self.count >= 16) + (self.count >= 32)
-        S, c = self.S, self.c
-        self.c = [x + ((S if i > s else 0) - x >> rate) for i, x in enumerate(c)]
-        self.count = min(self.count + 1, 32)
+        S, c, age = self.S, self.c, self.c[0] >> 8
+        rate = 2 + (age >= 44) + (age >= 82) + (age >= 105) + (age >= 114)
+        self.c = [x + ((S if i == 0 or i > s else 0) - x >> rate) for i, x in enumerate(c)]
 
 # 7. Frames
 LARGEST = (2 - 2.0 ** -23) * 2.0 ** 127  # the largest finite binary32
@@ -944,7 +952,7 @@ class Level:
         self.first, self.second = [Symbol(16) for _ in range(15)], [Symbol(16) for _ in range(15)]
         self.longer = [Bit() for _ in range(27)]
 
-RAW = (0,) * 11 + (1, 1, 2, 2, 3)  # k of §7.3.2, by level
+RAW = (0,) * 9 + (1, 1, 1, 2, 2, 3, 3)  # k of §7.3.2, by level
 THRESHOLDS = (2, 3, 6, 9, 12, 18, 24, 33, 45, 60, 81, 108, 144, 190, 252)
 
 def sgn2(x):
@@ -969,7 +977,7 @@ class Frames:
         self.pyramid = PyramidFrames(self, turns) if turns else None
 
     def frame(self, coder, predictor):
-        """7.5 A frame, from a range-coder stream."""
+        """7.5 A frame, from a two-ended stream."""
         self.before, self.X, self.predictor = self.X, [[0, 0, 0] for _ in self.gates], predictor
         if predictor == PYRAMID:
             self.pyramid.frame(coder)
@@ -981,16 +989,24 @@ class Frames:
 
     def frame_by_gates(self, coder):
         for v, shift in enumerate(self.shift):
+            found = []
             for axis in range(3):
                 prediction, model_set, activity, first, second = self.predict(v, axis)
                 level = sum(activity >= threshold for threshold in THRESHOLDS)
                 if (model_set, level) not in self.levels:
                     self.levels[model_set, level] = Level()
                 models = self.levels[model_set, level]
-                value = residual(coder, RAW[level], models.first[first], models.second[second], models.longer)
+                s = coder.lane(axis).symbol(models.first[first], models.second[second])
+                found.append((prediction, level, models, s))
+            for axis, (prediction, level, models, s) in enumerate(found):
+                value = self.rest(coder.lane(axis), v, axis, prediction, s, RAW[level], models.longer)
                 index = prediction + value
                 require(0 <= index < 2 ** (self.B2 - shift), "7.5", "an index outside its lattice")
                 self.X[v][axis], self.R[v][axis] = index << shift, value << shift
+
+    def rest(self, coder, _v, _axis, _prediction, s, k, longer):
+        """rest() of 7.3.2. (Who writes frames needs the others to say it.)"""
+        return rest(coder, s, k, longer)
 
     def predict(self, v, axis):
         """Prediction, set, activity, first and second for a vertex in an axis."""
@@ -1047,7 +1063,9 @@ class Frames:
 
 def residual(coder, k, first, second, longer):
     """7.3.2 The value."""
-    s = coder.symbol(first, second)
+    return rest(coder, coder.symbol(first, second), k, longer)
+
+def rest(coder, s, k, longer):
     high = s - 7 if s < 15 else escape(coder, longer)
     return high if k == 0 else clamp(high * 2 ** k + coder.raw(k), -2 ** 27, 2 ** 27)
 
@@ -1095,7 +1113,7 @@ def pyramid_model(x):
         shares[7 + r] = shares[7 - r] = value + 16
         value = value * factor >> 16
     shares[15] = value + 16
-    return Symbol(weights=scaled(shares), count=6)
+    return Symbol(weights=scaled(shares), seen=21919)
 
 def level_model(level):
     x = next(x for x in range(5, 1538) if size_level(x) >= level)
@@ -1152,7 +1170,7 @@ class PyramidFrames:
         rounded = clamp(prediction + 32 >> 6, 0, cells - 1)
         lost = clamp(prediction - 64 * rounded, -32, 32)
         k, models = self.models(turn, axis, lost)
-        index = rounded + self.residual(coder, v, axis, rounded, lost < 0, k, models)
+        index = rounded + self.residual(coder.lane(axis), v, axis, rounded, lost < 0, k, models)
         require(0 <= index < cells, "7.5", "an index outside its lattice")
         self.frames.X[v][axis] = index << s
         # learn_size() of 7.7.4

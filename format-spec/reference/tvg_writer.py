@@ -170,53 +170,74 @@ class Stream:
 class RangeEncoder:
     """Answers as a RangeDecoder would, with the values of the queue, and writes them down."""
     def __init__(self):
-        self.queue, self.low, self.range, self.shifted, self.data = deque(), 0, 2 ** 32 - 1, 0, b""
+        self.queue, self.low, self.range, self.shifted, self.data = deque(), 0, 2 ** 15, 0, b""
 
     def say(self, *values):
         self.queue.extend(values)
 
-    def interval(self, low, frequency):
-        unit = self.range >> 15
-        self.low += unit * low
-        self.range = unit * frequency
-        while self.range < 2 ** 31:
+    def clear(self):
+        """Takes back what has not been asked for."""
+        self.queue.clear()
+
+    def interval(self, low, high):
+        self.low += low
+        self.range = high - low
+        while self.range < 2 ** 15:
             self.range *= 2
             self.low *= 2
             self.shifted += 1
 
     def symbol(self, a, b=None):
         s = self.queue.popleft()
-        cumulative = [((x + y + 1) >> 1) + 4 * i for i, (x, y) in enumerate(zip(a.c, (b or a).c))] + [2 ** 15]
-        self.interval(cumulative[s], cumulative[s + 1] - cumulative[s])
+        cumulative = [x + y + 8 * i for i, (x, y) in enumerate(zip(a.c, (b or a).c))] + [2 ** 16]
+        cumulative[0] = 0
+        self.interval(*(boundary * self.range >> 16 for boundary in cumulative[s:s + 2]))
         for model in {a, b or a}:
             model.adapt(s)
         return s
 
     def bit(self, model):
-        value, zero = self.queue.popleft(), model.zero()
-        self.interval(*((zero, 2 ** 15 - zero) if value else (0, zero)))
+        value, boundary = self.queue.popleft(), model.zero() * self.range >> 15
+        self.interval(*((boundary, self.range) if value else (0, boundary)))
         model.adapt(value)
         return value
 
     def raw(self, k):
         value = self.queue.popleft()
-        self.interval(value << (15 - k), 1 << (15 - k))
+        self.low = (self.low << k) + value * self.range
+        self.shifted += k
         return value
 
-    def bits(self, k):
-        value, left = self.queue.popleft(), k
-        while left > 0:
-            m = min(left, 15)
-            left -= m
-            self.interval((value >> left) % 2 ** m << (15 - m), 1 << (15 - m))
-        return value
+    bits = raw
 
     def finish(self):
-        """Settles the final interval by one bit more: the shortest stream that leads into it."""
+        """Settles the final interval by one bit more: the shortest stream that leads into it, whatever follows."""
         assert not self.queue
         length = (self.shifted + 8) // 8
-        settled = -(-self.low // 2 ** 31)  # the bits above the last 31, rounded up
+        settled = -(-self.low // 2 ** 14)  # the bits above the last 14, rounded up
         self.data = (settled << 8 * length - self.shifted - 1).to_bytes(length, "big")
+
+class Ends(bytes):
+    """The bytes of a two-ended stream."""
+    front = 0  # how many of them are read from the front
+
+class TwoEnded:
+    """6.1.1 Streams with two ends."""
+    def __init__(self):
+        self.front, self.back, self.data = RangeEncoder(), RangeEncoder(), b""
+
+    def lane(self, axis):
+        return self.back if axis == 1 else self.front
+
+    def clear(self):
+        self.front.clear()
+        self.back.clear()
+
+    def finish(self):
+        self.front.finish()
+        self.back.finish()
+        self.data = Ends(self.front.data + self.back.data[::-1])
+        self.data.front = len(self.front.data)
 
 # 5.1 Connectivity
 class RandomConnectivity(reference.Connectivity):
@@ -342,39 +363,55 @@ def flags(fine, gates):
     return coder.data
 
 # 7. Frames
-def say_high(coder, high):
-    """A symbol, or its escape."""
-    if -7 <= high <= 7:
-        coder.say(high + 7)
-    else:
+def symbol_of(high):
+    return high + 7 if -7 <= high <= 7 else 15
+
+def say_escape(coder, high):
+    """What a symbol does not say."""
+    if symbol_of(high) == 15:
         rest = abs(high) - 7
         length = rest.bit_length() - 1
-        coder.say(15, int(high < 0), *[1] * length, *[0] * (length < 27), rest - 2 ** length)
+        coder.say(int(high < 0), *[1] * length, *[0] * (length < 27), rest - 2 ** length)
+
+def say_high(coder, high):
+    """A symbol, and its escape."""
+    coder.say(symbol_of(high))
+    say_escape(coder, high)
+
+def say_rest(coder, value, k):
+    """rest() of 7.3.2."""
+    high = value >> k
+    say_escape(coder, high)
+    if k > 0:
+        coder.say(value - (high << k))
 
 def say_residual(coder, value, k):
     """7.3.2 The value."""
-    high = value >> k
-    say_high(coder, high)
-    if k > 0:
-        coder.say(value - (high << k))
+    coder.say(symbol_of(value >> k))
+    say_rest(coder, value, k)
 
 class FrameWriter(reference.Frames):
     """Writes frames whose indices are chosen by a function of vertex, axis, prediction and number of cells."""
     def __init__(self, gates, fine, fine_bits, coarse_bits, choose, turns=None):
         super().__init__(gates, fine, fine_bits, coarse_bits)
-        self.choose, self.hashed = choose, b""
+        self.choose, self.hashed, self.values = choose, b"", [0] * 3
         self.pyramid = PyramidWriter(self, turns) if turns else None
 
     def predict(self, v, axis):
         found = super().predict(v, axis)
         cells = 2 ** (self.B2 - self.shift[v])
         level = sum(found[2] >= threshold for threshold in reference.THRESHOLDS)
-        say_residual(self.coder, self.choose(v, axis, found[0], cells) - found[0], reference.RAW[level])
+        self.values[axis] = self.choose(v, axis, found[0], cells) - found[0]
+        self.coder.lane(axis).say(symbol_of(self.values[axis] >> reference.RAW[level]))
         return found
 
+    def rest(self, coder, v, axis, prediction, s, k, longer):
+        say_rest(coder, self.values[axis], k)
+        return super().rest(coder, v, axis, prediction, s, k, longer)
+
     def write(self, predictor):
-        """Returns the range-coder stream of the next frame (7.5)."""
-        self.coder = RangeEncoder()
+        """Returns the stream of the next frame (7.5)."""
+        self.coder = TwoEnded()
         self.frame(self.coder, predictor)
         self.hashed += b"".join(struct.pack("<3i", *index) for index in self.X)
         return self.coder.data

@@ -1,4 +1,6 @@
 #pragma once
+#include "base/bits.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -48,134 +50,193 @@ class AdaptiveSymbol {
  public:
   static constexpr int kMaxSymbols = 16;
 
+  class Goals;
+
   /// Starts with `symbol_count` (2 to 16) equally likely symbols.
   explicit AdaptiveSymbol(int symbol_count = kMaxSymbols) {
     for (int i = 0; i < kMaxSymbols; ++i) {
-      cumulative_[static_cast<std::size_t>(i)] =
+      lanes_[static_cast<std::size_t>(i)] =
           static_cast<std::int16_t>(kScale * std::min(i, symbol_count) / symbol_count);
     }
   }
 
   /// Starts with a given distribution: weights add up to at most 0xFFFF; what is missing goes to the last
   /// symbol. It learns on as if it had seen so many symbols.
-  explicit AdaptiveSymbol(const std::array<std::uint16_t, kMaxSymbols>& weights, std::uint8_t seen = 0)
-      : count_(seen) {
+  explicit AdaptiveSymbol(const std::array<std::uint16_t, kMaxSymbols>& weights, int seen = 0) {
     std::int32_t sum = 0;
     for (std::size_t i = 0; i < kMaxSymbols; ++i) {
-      cumulative_[i] = static_cast<std::int16_t>(sum * kScale / 0xFFFF);
+      lanes_[i] = static_cast<std::int16_t>(sum * kScale / 0xFFFF);
       sum += weights[i];
     }
+    for (int i = 0; i < seen; ++i) lanes_[0] = moved(lanes_[0], kScale, rate());
   }
 
-  void adapt(std::uint32_t symbol) {
-    const int rate = kRates[count_];
-    const std::int16_t* goals = kGoals.data() + (kMaxSymbols - 1 - symbol);
-#if defined(__SSE2__)
-    const __m128i shift = _mm_cvtsi32_si128(rate);
-    for (std::size_t half = 0; half < 2; ++half) {
-      auto* lanes = reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half);
-      const __m128i old = _mm_load_si128(lanes);
-      const __m128i goal = _mm_loadu_si128(reinterpret_cast<const __m128i*>(goals + 8 * half));
-      _mm_store_si128(lanes, _mm_add_epi16(old, _mm_sra_epi16(_mm_sub_epi16(goal, old), shift)));
-    }
-#else
-    for (std::size_t i = 0; i < kMaxSymbols; ++i) {
-      cumulative_[i] = static_cast<std::int16_t>(cumulative_[i] + ((goals[i] - cumulative_[i]) >> rate));
-    }
-#endif
-    count_ = static_cast<std::uint8_t>(count_ + (count_ < kRates.size() - 1 ? 1 : 0));
-  }
+  /// Learns a symbol.
+  void adapt(std::uint32_t symbol);
+  void adapt(const Goals& goals);
 
  private:
   friend class SymbolMixture;
 
-  /// [symbols seen]: the n-th symbol moves the boundaries by 2^-rate of the way.
-  static constexpr std::array<std::uint8_t, 33> kRates = [] {
-    std::array<std::uint8_t, 33> rates{};
+  static constexpr std::int16_t moved(std::int16_t from, std::int16_t goal, std::uint32_t rate) {
+    return static_cast<std::int16_t>(from + ((goal - from) >> rate));
+  }
+
+  /// Symbols move the lanes by 2^-rate of the way.
+  std::uint32_t rate() const { return kRates[static_cast<std::uint16_t>(lanes_[0]) >> 8]; }
+
+  /// [lane 0 >> 8]: 2 for the first 2 symbols, 3 for the next 4, 4 for 10, 5 for 16, then 6.
+  static constexpr std::array<std::uint32_t, 128> kRates = [] {
+    std::array<std::uint32_t, 128> rates{};
     for (std::size_t n = 0; n < rates.size(); ++n)
-      rates[n] = n < 2 ? 2 : n < 6 ? 3 : n < 16 ? 4 : n < 32 ? 5 : 6;
+      rates[n] = n < 44 ? 2 : n < 82 ? 3 : n < 105 ? 4 : n < 114 ? 5 : 6;
     return rates;
   }();
   /// What all probabilities of a model add up to; the rest of 1 << 15 is shared out evenly by SymbolMixture.
   static constexpr std::int16_t kScale = (1 << kProbabilityBits) - 4 * kMaxSymbols;
-  /// kGoals[15 - s + i] is where boundary i moves after symbol s: kScale where i > s, else 0.
-  static constexpr std::array<std::int16_t, 2 * kMaxSymbols> kGoals = [] {
-    std::array<std::int16_t, 2 * kMaxSymbols> goals{};
-    for (std::size_t i = kMaxSymbols; i < goals.size(); ++i) goals[i] = kScale;
-    return goals;
-  }();
 
-  /// [i]: probability of the symbols below i, out of kScale; never decreases with i.
-  alignas(16) std::array<std::int16_t, kMaxSymbols> cumulative_;
-  std::uint8_t count_ = 0;
+  /// [i > 0]: probability of the symbols below i, out of kScale; never decreases with i. [0] moves from 0
+  /// towards kScale with every symbol: it tells how many there have been.
+  alignas(32) std::array<std::int16_t, kMaxSymbols> lanes_;
 };
 
-/// The distribution a symbol is coded with: the mean of two models, scaled so that every symbol has a
-/// frequency of at least 4 out of 1 << 15.
-class SymbolMixture {
+/// Where a symbol that is seen moves the lanes of its models.
+class AdaptiveSymbol::Goals {
  public:
-  struct Interval {
-    std::uint32_t symbol, low, high;
-  };
-
-  SymbolMixture(const AdaptiveSymbol& a, const AdaptiveSymbol& b) {
-    for (std::size_t half = 0; half < 2; ++half) {
+  explicit Goals(std::uint32_t symbol) {
 #if defined(__SSE2__)
-      const __m128i lanes_a =
-          _mm_load_si128(reinterpret_cast<const __m128i*>(a.cumulative_.data() + 8 * half));
-      const __m128i lanes_b =
-          _mm_load_si128(reinterpret_cast<const __m128i*>(b.cumulative_.data() + 8 * half));
-      const __m128i offsets = _mm_load_si128(reinterpret_cast<const __m128i*>(kOffsets.data() + 8 * half));
-      _mm_store_si128(reinterpret_cast<__m128i*>(cumulative_.data() + 8 * half),
-                      _mm_add_epi16(_mm_avg_epu16(lanes_a, lanes_b), offsets));
+    low_ = _mm_load_si128(reinterpret_cast<const __m128i*>(kGoals[symbol].data()));
+    high_ = _mm_load_si128(reinterpret_cast<const __m128i*>(kGoals[symbol].data() + 8));
 #else
-      for (std::size_t i = 8 * half; i < 8 * half + 8; ++i) {
-        cumulative_[i] =
-            static_cast<std::uint16_t>((a.cumulative_[i] + b.cumulative_[i] + 1) / 2 + kOffsets[i]);
-      }
+    goals_ = kGoals[symbol].data();
 #endif
-    }
-    cumulative_[AdaptiveSymbol::kMaxSymbols] = 1u << kProbabilityBits;
-  }
-
-  /// Sum of the frequencies of all symbols below `symbol` (0 to 16).
-  std::uint32_t cumulative(std::uint32_t symbol) const {
-    return cumulative_[symbol];
-  }
-
-  /// The interval of a symbol under the mixture of two models, without the rest of it.
-  static Interval interval_of(const AdaptiveSymbol& a, const AdaptiveSymbol& b, std::uint32_t symbol) {
-    return {symbol, boundary(a, b, symbol), boundary(a, b, symbol + 1)};
-  }
-
-  /// The symbol whose interval holds `target`, which is below 1 << 15.
-  Interval find(std::uint32_t target) const {
-#if defined(__SSE2__)
-    const __m128i wanted = _mm_set1_epi16(static_cast<short>(target));
-    const auto* lanes = reinterpret_cast<const __m128i*>(cumulative_.data());
-    const __m128i above = _mm_packs_epi16(_mm_cmpgt_epi16(_mm_load_si128(lanes), wanted),
-                                          _mm_cmpgt_epi16(_mm_load_si128(lanes + 1), wanted));
-    const auto mask = static_cast<std::uint32_t>(_mm_movemask_epi8(above)) | 0x10000u;
-    const auto symbol = static_cast<std::uint32_t>(std::countr_zero(mask)) - 1;
-#else
-    std::uint32_t symbol = 0;
-    for (std::size_t i = 1; i < AdaptiveSymbol::kMaxSymbols; ++i) symbol += cumulative_[i] <= target ? 1 : 0;
-#endif
-    return {symbol, cumulative_[symbol], cumulative_[symbol + 1]};
   }
 
  private:
-  static std::uint32_t boundary(const AdaptiveSymbol& a, const AdaptiveSymbol& b, std::uint32_t symbol) {
-    if (symbol == AdaptiveSymbol::kMaxSymbols) return 1u << kProbabilityBits;
-    const auto sum = static_cast<std::uint32_t>(a.cumulative_[symbol] + b.cumulative_[symbol] + 1);
-    return (sum >> 1) + kOffsets[symbol];
+  friend class AdaptiveSymbol;
+  friend class SymbolMixture;
+
+  /// [symbol][lane]: kScale for the boundaries beyond the symbol and for lane 0, else 0.
+  alignas(16) static constexpr std::array<std::array<std::int16_t, kMaxSymbols>, kMaxSymbols> kGoals = [] {
+    std::array<std::array<std::int16_t, kMaxSymbols>, kMaxSymbols> goals{};
+    for (std::size_t symbol = 0; symbol < goals.size(); ++symbol) {
+      for (std::size_t i = 0; i < kMaxSymbols; ++i) goals[symbol][i] = i == 0 || i > symbol ? kScale : 0;
+    }
+    return goals;
+  }();
+
+#if defined(__SSE2__)
+  Goals(__m128i low, __m128i high) : low_(low), high_(high) {}
+
+  __m128i low_, high_;
+#else
+  const std::int16_t* goals_;
+#endif
+};
+
+inline void AdaptiveSymbol::adapt(const Goals& goals) {
+#if defined(__SSE2__)
+  const __m128i rate_lane = _mm_cvtsi32_si128(static_cast<int>(rate()));
+  auto* lanes = reinterpret_cast<__m128i*>(lanes_.data());
+  const __m128i low = _mm_load_si128(lanes), high = _mm_load_si128(lanes + 1);
+  _mm_store_si128(lanes, _mm_add_epi16(low, _mm_sra_epi16(_mm_sub_epi16(goals.low_, low), rate_lane)));
+  _mm_store_si128(lanes + 1, _mm_add_epi16(high, _mm_sra_epi16(_mm_sub_epi16(goals.high_, high), rate_lane)));
+#else
+  const std::uint32_t common_rate = rate();
+  for (std::size_t i = 0; i < kMaxSymbols; ++i) lanes_[i] = moved(lanes_[i], goals.goals_[i], common_rate);
+#endif
+}
+
+inline void AdaptiveSymbol::adapt(std::uint32_t symbol) {
+  adapt(Goals(symbol));
+}
+
+/// The distribution a symbol is coded with: the mean of two models, scaled so that every symbol has a
+/// frequency of at least 8 out of 1 << 16.
+class SymbolMixture {
+ public:
+  /// Where a symbol lies within a range.
+  struct Interval {
+    std::uint32_t low, high;
+  };
+  struct Found {
+    std::uint32_t symbol;
+    Interval interval;
+    AdaptiveSymbol::Goals goals;
+  };
+
+  SymbolMixture(const AdaptiveSymbol& a, const AdaptiveSymbol& b) {
+#if defined(__SSE2__)
+    const auto* lanes_a = reinterpret_cast<const __m128i*>(a.lanes_.data());
+    const auto* lanes_b = reinterpret_cast<const __m128i*>(b.lanes_.data());
+    const auto* offsets = reinterpret_cast<const __m128i*>(kOffsets.data());
+    const __m128i sums = _mm_add_epi16(_mm_load_si128(lanes_a), _mm_load_si128(lanes_b));
+    const __m128i first_is_zero = _mm_set_epi16(-1, -1, -1, -1, -1, -1, -1, 0);
+    low_ = _mm_add_epi16(_mm_and_si128(sums, first_is_zero), _mm_load_si128(offsets));
+    high_ = _mm_add_epi16(_mm_add_epi16(_mm_load_si128(lanes_a + 1), _mm_load_si128(lanes_b + 1)),
+                          _mm_load_si128(offsets + 1));
+#else
+    for (std::uint32_t i = 0; i < AdaptiveSymbol::kMaxSymbols; ++i) cumulative_[i] = cumulative(a, b, i);
+#endif
   }
 
-  /// 4 i: the smallest frequency of each symbol, summed.
-  alignas(16) static constexpr std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> kOffsets = {
-      0, 4, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 48, 52, 56, 60};
+  /// Sum of the frequencies of all symbols below `symbol` (0 to 16) in the mixture of two models.
+  static std::uint32_t cumulative(const AdaptiveSymbol& a, const AdaptiveSymbol& b, std::uint32_t symbol) {
+    if (symbol == 0) return 0;
+    if (symbol == AdaptiveSymbol::kMaxSymbols) return 1u << 16;
+    return static_cast<std::uint32_t>(a.lanes_[symbol] + b.lanes_[symbol]) + kOffsets[symbol];
+  }
 
-  alignas(16) std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols + 1> cumulative_;
+  /// The interval of a symbol within a range, under the mixture of two models, without the rest of it.
+  static Interval interval_of(const AdaptiveSymbol& a, const AdaptiveSymbol& b, std::uint32_t symbol,
+                              std::uint32_t range) {
+    return {cumulative(a, b, symbol) * range >> 16, cumulative(a, b, symbol + 1) * range >> 16};
+  }
+
+  /// The symbol whose interval holds `code`, which is below `range`, which is below 1 << 16.
+  [[gnu::always_inline]] Found find(std::uint32_t range, std::uint32_t code) const {
+    alignas(16) std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols + 1> boundaries;
+#if defined(__SSE2__)
+    const __m128i ranges = _mm_set1_epi16(static_cast<short>(range));
+    const __m128i codes = _mm_set1_epi16(static_cast<short>(code));
+    const __m128i low = _mm_mulhi_epu16(low_, ranges);
+    const __m128i high = _mm_mulhi_epu16(high_, ranges);
+    auto* lanes = reinterpret_cast<__m128i*>(boundaries.data());
+    _mm_store_si128(lanes, low);
+    _mm_store_si128(lanes + 1, high);
+    const __m128i zero = _mm_setzero_si128();
+    const __m128i low_reached = _mm_cmpeq_epi16(_mm_subs_epu16(low, codes), zero);
+    const __m128i high_reached = _mm_cmpeq_epi16(_mm_subs_epu16(high, codes), zero);
+    const auto reached =
+        static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(low_reached, high_reached)));
+    const std::uint32_t symbol = highest_bit(reached);
+    const __m128i scale = _mm_set1_epi16(AdaptiveSymbol::kScale);
+    const __m128i seen = _mm_cvtsi32_si128(AdaptiveSymbol::kScale);
+    boundaries[AdaptiveSymbol::kMaxSymbols] = static_cast<std::uint16_t>(range);
+    return {symbol,
+            {boundaries[symbol], boundaries[symbol + 1]},
+            AdaptiveSymbol::Goals(_mm_or_si128(_mm_andnot_si128(low_reached, scale), seen),
+                                  _mm_andnot_si128(high_reached, scale))};
+#else
+    std::uint32_t symbol = 0;
+    for (std::size_t i = 0; i < AdaptiveSymbol::kMaxSymbols; ++i)
+      boundaries[i] = static_cast<std::uint16_t>(cumulative_[i] * range >> 16);
+    for (std::size_t i = 1; i < AdaptiveSymbol::kMaxSymbols; ++i) symbol += boundaries[i] <= code ? 1 : 0;
+    boundaries[AdaptiveSymbol::kMaxSymbols] = static_cast<std::uint16_t>(range);
+    return {symbol, {boundaries[symbol], boundaries[symbol + 1]}, AdaptiveSymbol::Goals(symbol)};
+#endif
+  }
+
+ private:
+  /// 8 i: the smallest frequency of each symbol, summed.
+  alignas(16) static constexpr std::array<std::uint16_t, AdaptiveSymbol::kMaxSymbols> kOffsets = {
+      0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120};
+
+#if defined(__SSE2__)
+  __m128i low_, high_;  ///< boundaries out of 1 << 16
+#else
+  std::array<std::uint32_t, AdaptiveSymbol::kMaxSymbols> cumulative_;
+#endif
 };
 
 }  // namespace tvg

@@ -6,7 +6,7 @@ namespace tvg {
 void RangeEncoder::put_bytes() {
   while (pending_ >= 8) {
     pending_ -= 8;
-    const int position = 32 + pending_;
+    const int position = 16 + pending_;
     if ((low_ >> (position + 8)) != 0) {  // a carry runs into bytes already written
       std::size_t i = bytes_.size();
       while (++bytes_[--i] == 0) {
@@ -18,17 +18,15 @@ void RangeEncoder::put_bytes() {
 }
 
 std::vector<std::uint8_t> RangeEncoder::finish() {
-  // The one multiple of 2^31 in [low, low + 2^31) lies in the final interval: one bit more settles it.
-  constexpr std::uint64_t kHalf = std::uint64_t{1} << 31;
-  low_ = (low_ + kHalf - 1) & ~(kHalf - 1);
-  low_ <<= 1;
-  ++pending_;
-  if (pending_ >= 8) put_bytes();
-  if (pending_ > 0) {  // fill the last byte with zero bits
-    low_ <<= 8 - pending_;
-    pending_ = 8;
-    put_bytes();
-  }
+  // One multiple of 2^14 lies in [low, low + 2^14): whatever follows its last 14 bits, it lies in the final
+  // interval.
+  constexpr std::uint64_t kQuarter = std::uint64_t{1} << 14;
+  low_ = (low_ + kQuarter - 1) & ~(kQuarter - 1);
+  const int whole_bytes =
+      (pending_ + 9) / 8 * 8;  // with two bits more, and zero bits that fill the last byte
+  low_ <<= whole_bytes - pending_;
+  pending_ = whole_bytes;
+  put_bytes();
   std::vector<std::uint8_t> bytes = std::move(bytes_);
   *this = RangeEncoder();
   return bytes;

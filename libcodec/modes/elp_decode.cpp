@@ -2,8 +2,9 @@
 
 #include "base/allocation.hpp"
 #include "base/stream_error.hpp"
-#include "entropy/range_coder.hpp"
+#include "entropy/two_ended_coder.hpp"
 #include "modes/elp_take.hpp"
+#include "planes/cell_centres.hpp"
 #include "quantization/flag_coder.hpp"
 
 #include <algorithm>
@@ -19,7 +20,8 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const GopMesh>
   if (by_pyramid && !mesh->pyramid)
     return malformed("§4.5.1", "a GOP is predicted along the pyramid of a mesh that has none");
   const std::size_t vertex_count = mesh->coded.gates.size();
-  std::size_t bytes = vertex_count * (PositionCoder::kBytesPerVertex + 1) + PositionCoder::kMostModelBytes;
+  std::size_t bytes =
+      vertex_count * (PositionCoder::kBytesPerVertex + sizeof(turn_[0]) + 1) + PositionCoder::kMostModelBytes;
   if (by_pyramid) bytes += vertex_count * PyramidCoder::kBytesPerVertex + PyramidCoder::kMostOtherBytes;
   along_pyramid_.reset();
   if (!can_allocate(bytes)) return out_of_memory();
@@ -29,6 +31,8 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const GopMesh>
   info_ = gop_info(header, elp);
   info_.flagged = static_cast<std::uint32_t>(vertex_count);
   flags_.clear();
+  turn_.resize(vertex_count);
+  for (std::uint32_t v = 0; v < vertex_count; ++v) turn_[mesh_->coded.order[v]] = v;
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
     RangeDecoder coder(elp.flags);
@@ -56,7 +60,7 @@ Result<Bytes> ElpDecoder::open(Bytes packet, Predictor predictor) const {
 Status ElpDecoder::take(Bytes packet, Predictor predictor) {
   const Result<Bytes> positions = open(packet, predictor);
   if (!positions) return positions.error();
-  RangeDecoder coder(*positions);
+  TwoEndedDecoder coder(*positions);
   return decode(coder, predictor);
 }
 
@@ -72,17 +76,18 @@ Status ElpDecoder::check_digest(Bytes packet) const {
 void ElpDecoder::copy_positions(void* positions, std::size_t stride) const {
   const std::span<const Quad> indices = positions_->indices();
   const int shift = lattice_.shift();
-  const double coarse_step = lattice_.step * static_cast<double>(std::uint32_t{1} << shift);
-  auto* const target = static_cast<std::byte*>(positions);
-  for (std::size_t v = 0; v < indices.size(); ++v) {
-    const bool fine = flagged(v);
-    const double step = fine ? lattice_.step : coarse_step;
-    std::array<float, 3> position;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::int32_t index = shift_to_coarse(indices[v][axis], fine ? 0 : shift);
-      position[axis] = reconstruct(index, lattice_.origin[axis], step);
+  const CellCentres fine(lattice_.origin, lattice_.step, lattice_.fine_bits);
+  const CellCentres coarse(lattice_.origin, lattice_.step * static_cast<double>(std::uint32_t{1} << shift),
+                           lattice_.coarse_bits);
+  // In the order of the target, for which memory is fetched ahead; the indices are close at hand.
+  auto* target = static_cast<std::byte*>(positions);
+  for (const std::uint32_t v : turn_) {
+    if (flagged(v)) {
+      fine.put(indices[v], target);
+    } else {
+      coarse.put((Lanes(indices[v]) >> shift).quad(), target);
     }
-    std::memcpy(target + stride * mesh_->coded.order[v], position.data(), sizeof position);
+    target += stride;
   }
 }
 

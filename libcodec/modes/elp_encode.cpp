@@ -35,8 +35,9 @@ ElpEncoder::ElpEncoder(const GopInput& input, const GopMesh& mesh)
 std::vector<std::uint8_t> ElpEncoder::finish() {
   std::vector<std::uint8_t> coded_flags;
   if (input_.lattice.hybrid()) {
-    code_flags(coder_, mesh_.coded.gates, flags_);
-    coded_flags = coder_.finish();
+    RangeEncoder coder;
+    code_flags(coder, mesh_.coded.gates, flags_);
+    coded_flags = coder.finish();
   }
   return write_elp_header(predictors_, input_.lattice, coded_flags);
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "base/checksum.hpp"
-#include "entropy/range_coder.hpp"
+#include "entropy/two_ended_coder.hpp"
 #include "modes/elp.hpp"
 #include "modes/elp_header.hpp"
 #include "modes/gop_input.hpp"
@@ -43,7 +43,7 @@ class ElpEncoder {
   std::optional<PyramidCoder> along_pyramid_;
   PredictorSet predictors_;  ///< of the frames taken
   std::uint32_t frames_taken_ = 0;
-  RangeEncoder coder_;
+  TwoEndedEncoder coder_;
   Hasher digest_;
 };
 

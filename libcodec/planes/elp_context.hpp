@@ -11,17 +11,6 @@
 // know before them.
 namespace tvg {
 
-/// Where the models of a vertex's residuals stand: a ModelChoice for each plane of the group.
-struct GroupChoice {
-  std::size_t set;
-  Lanes activity, first, second;
-
-  ModelChoice of(std::size_t plane) const {
-    return {set, static_cast<std::uint32_t>(activity[plane]), static_cast<std::uint32_t>(first[plane]),
-            static_cast<std::uint32_t>(second[plane])};
-  }
-};
-
 /// On which of two nested lattices a vertex and those of its gate lie.
 struct GateLattices {
   int nested;                ///< bits between the two lattices

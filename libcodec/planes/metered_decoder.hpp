@@ -1,24 +1,22 @@
 #pragma once
-#include "entropy/range_coder.hpp"
+#include "entropy/two_ended_coder.hpp"
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
 namespace tvg {
 
-/// A RangeDecoder that keeps account of the bits each plane of a group takes: residuals come plane after
-/// plane, and each begins with the one symbol that is coded with two models.
+/// A TwoEndedDecoder that keeps account of the bits each plane of a group takes.
 template <std::size_t kPlanes>
-class MeteredDecoder : public RangeDecoder {
+class MeteredDecoder : public TwoEndedDecoder {
  public:
-  using RangeDecoder::code;
-  using RangeDecoder::RangeDecoder;
+  using TwoEndedDecoder::TwoEndedDecoder;
 
-  std::uint32_t code(AdaptiveSymbol& a, AdaptiveSymbol& b, std::uint32_t /*ignored*/ = 0) {
+  /// Asked for once for each residual, before it.
+  RangeDecoder& lane(std::size_t plane) {
     settle();
-    plane_ = plane_ + 1 == kPlanes ? 0 : plane_ + 1;
-    return RangeDecoder::code(a, b);
+    plane_ = plane;
+    return TwoEndedDecoder::lane(plane);
   }
 
   /// [plane]: bits since the start.
@@ -35,7 +33,7 @@ class MeteredDecoder : public RangeDecoder {
   }
 
   std::array<double, kPlanes> bits_{};
-  std::size_t plane_ = kPlanes - 1;  ///< of the residual begun last
+  std::size_t plane_ = 0;  ///< of the residual begun last
   double settled_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "entropy/kept_coder.hpp"
 #include "planes/elp_context.hpp"
 #include "planes/lanes.hpp"
 #include "planes/residual_models.hpp"
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,9 +23,9 @@
 namespace tvg {
 
 /// Predicts and codes a group of one to four planes along a schedule, time after time (format-spec §7.5).
-/// Written once for both directions: with a RangeEncoder the residuals of given indices are written, with a
-/// RangeDecoder the indices are read. The planes of a group are coded together, vertex by vertex, and share
-/// their models; `Context` chooses these.
+/// Written once for both directions: with a TwoEndedEncoder the residuals of given indices are written, with
+/// a TwoEndedDecoder the indices are read. The planes of a group are coded together, vertex by vertex, and
+/// share their models; `Context` chooses these.
 template <std::size_t kPlanes, class Context = ElpContext>
 class PlaneCoder {
   static_assert(kPlanes >= 1 && kPlanes <= std::tuple_size_v<Quad>);
@@ -68,7 +70,7 @@ class PlaneCoder {
  private:
   /// Planes as they look on one of the lattices.
   struct View {
-    const std::vector<Quad>& planes;
+    const Quad* planes;
     int shift;
 
     Lanes operator()(std::uint32_t vertex) const { return Lanes(planes[vertex]) >> shift; }
@@ -76,68 +78,109 @@ class PlaneCoder {
 
   template <class P, class Coder>
   bool code_planes(Coder& coder, bool alone) {
-    return flags_.empty() ? code_planes<P, false>(coder, alone) : code_planes<P, true>(coder, alone);
+    // One lattice is two that never differ, but for the predictor of most frames there is a loop apart.
+    if constexpr (kOfMostFrames<P>) {
+      if (flags_.empty()) return code_planes<P, false>(coder, alone);
+    }
+    return code_planes<P, true>(coder, alone);
   }
 
+  /// The others' loops are made for size.
+  template <class P>
+  static constexpr bool kOfMostFrames = std::is_same_v<P, ElpPredictor>;
+
+  /// What a pass over the planes needs all the time, apart from what its stores may change.
+  struct Pass {
+    Quad* current;
+    const Quad* previous;
+    Quad* residuals;
+    const std::uint8_t* flags;  ///< null when all vertices are fine
+    int bits, nested;
+    bool alone;  ///< there are no reference planes
+
+    bool fine(std::uint32_t vertex) const { return flags == nullptr || flags[vertex] != 0; }
+  };
+
   template <class P, bool kHybrid, class Coder>
-  bool code_planes(Coder& coder, bool alone) {
+  bool code_planes(Coder& given, bool alone) {
+    const Pass pass{current_.data(),
+                    previous_.data(),
+                    residuals_.data(),
+                    flags_.empty() ? nullptr : flags_.data(),
+                    bits_,
+                    nested_,
+                    alone};
+    const Schedule schedule = schedule_;
+    KeptCoder<Coder> coder(given);
     std::uint32_t outside = 0;
-    for (std::size_t turn = 0; turn < schedule_.size(); ++turn) {
-      const Scheduled v = schedule_[turn];
-      const int shift = kHybrid && flags_[v.vertex] == 0 ? nested_ : 0;
-      outside |= v.whole() ? code_gated<P, kHybrid>(coder, v, shift) : code_seed<P>(coder, v, shift, alone);
+    bool whole = true;
+    for (std::size_t turn = 0; turn < schedule.size() && whole; ++turn) {
+      const Scheduled v = schedule[turn];
+      const int shift = kHybrid && !pass.fine(v.vertex) ? pass.nested : 0;
+      if (v.whole()) [[likely]] {
+        outside |= code_gated<P, kHybrid>(coder, pass, v, shift);
+      } else {
+        outside |= apart(coder, [&](Coder& cold) { return code_seed<P>(cold, pass, turn, shift); });
+      }
       if constexpr (Coder::kDecoding) {
         if (turn % 256 == 255 && coder.overrun())
-          return false;  // work in proportion to the bytes that are there
+          whole = false;  // work in proportion to the bytes that are there
       }
     }
-    return outside == 0;
+    give_back(given, coder);
+    return whole && outside == 0;
   }
 
   /// A vertex with a whole gate. Algorithm 2: every neighbour is brought to the vertex's own lattice first,
   /// `shift` bits from the fine one.
   template <class P, bool kHybrid, class Coder>
-  std::uint32_t code_gated(Coder& coder, const Scheduled& v, int shift) {
-    const View now{current_, shift}, before{previous_, shift}, residuals{residuals_, 0};
+  [[gnu::always_inline]] std::uint32_t code_gated(Coder& coder, const Pass& pass, const Scheduled& v,
+                                                  int shift) {
+    const View now{pass.current, shift}, before{pass.previous, shift}, residuals{pass.residuals, 0};
     const Prediction<Lanes> prediction = P::predict(v, now, before);
     if constexpr (kHybrid) {
       const GateLattices lattices{
-          nested_, shift, {flags_[v.gate.n] != 0, flags_[v.gate.p] != 0, flags_[v.gate.o] != 0}};
+          pass.nested, shift, {pass.fine(v.gate.n), pass.fine(v.gate.p), pass.fine(v.gate.o)}};
       const GroupChoice choice =
           Context::template on_two_lattices<P>(v, residuals, prediction.lean, lattices, now, before);
-      return code_vertex(coder, v.vertex, prediction.value, choice, shift);
+      if constexpr (!kOfMostFrames<P>)
+        return code_one_vertex(coder, pass, v.vertex, prediction.value, choice, shift);
+      return code_vertex(coder, pass, v.vertex, prediction.value, choice, shift);
     } else {
-      return code_vertex(coder, v.vertex, prediction.value,
+      return code_vertex(coder, pass, v.vertex, prediction.value,
                          Context::on_one_lattice(v, residuals, prediction.lean), 0);
     }
   }
 
   template <class P, class Coder>
-  [[gnu::noinline]] std::uint32_t code_seed(Coder& coder, const Scheduled& v, int shift, bool alone) {
-    const View now{current_, shift}, before{previous_, shift}, residuals{residuals_, 0};
+  std::uint32_t code_seed(Coder& coder, const Pass& pass, std::size_t turn, int shift) {
+    const Scheduled v = schedule_[turn];
+    const View now{pass.current, shift}, before{pass.previous, shift}, residuals{pass.residuals, 0};
     const Lanes prediction = P::predict_seed(v, now, before, middle() >> shift);
-    return code_vertex(coder, v.vertex, prediction, Context::of_seed(v, residuals, shift, alone), shift);
+    return code_one_vertex(coder, pass, v.vertex, prediction,
+                           Context::of_seed(v, residuals, shift, pass.alone), shift);
+  }
+
+  template <class Coder>
+  [[gnu::noinline]] std::uint32_t code_one_vertex(Coder& coder, const Pass& pass, std::uint32_t v,
+                                                  Lanes prediction, const GroupChoice& choice, int shift) {
+    return code_vertex(coder, pass, v, prediction, choice, shift);
   }
 
   /// Codes a vertex's residuals; `prediction` is on its own lattice. Returns bits that are not zero when an
   /// index lies outside that lattice.
   template <class Coder>
-  [[gnu::always_inline]] std::uint32_t code_vertex(Coder& coder, std::uint32_t v, Lanes prediction,
-                                                   const GroupChoice& choice, int shift) {
-    const Lanes wanted = (Lanes(current_[v]) >> shift) - prediction;
-    Quad coded{};
-    for (std::size_t plane = 0; plane < kPlanes; ++plane)
-      coded[plane] = models_.code(coder, choice.of(plane), Coder::kDecoding ? 0 : wanted[plane]);
-    // Whole quads are stored, not their parts: the next vertex loads them whole, at once.
-    const Lanes residuals(coded[0], coded[1], coded[2], coded[3]);
+  [[gnu::always_inline]] std::uint32_t code_vertex(Coder& coder, const Pass& pass, std::uint32_t v,
+                                                   Lanes prediction, const GroupChoice& choice, int shift) {
+    const Lanes wanted = (Lanes(pass.current[v]) >> shift) - prediction;
+    const Lanes residuals = models_.template code<kPlanes>(coder, choice, wanted);
     const Lanes index = prediction + residuals;
-    const Lanes inside = index & Lanes::all((1 << (bits_ - shift)) - 1);
-    const Quad differs = (index ^ inside).quad();
-    const auto outside = static_cast<std::uint32_t>(differs[0] | differs[1] | differs[2] | differs[3]);
+    const Lanes inside = index & Lanes::all((1 << (pass.bits - shift)) - 1);
+    const bool outside = any(index ^ inside);
     // What follows a damaged residual is lost. Staying on the lattice keeps the arithmetic within 32 bits.
-    if constexpr (Coder::kDecoding) current_[v] = (inside << shift).quad();
-    residuals_[v] = outside == 0 ? (residuals << shift).quad() : Quad{};
-    return outside;
+    if constexpr (Coder::kDecoding) pass.current[v] = (inside << shift).quad();
+    pass.residuals[v] = outside ? Quad{} : (residuals << shift).quad();
+    return outside ? 1 : 0;
   }
 
   /// The middle of the fine lattice in all planes of the group.

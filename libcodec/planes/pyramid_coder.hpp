@@ -148,7 +148,7 @@ class PyramidCoder {
                                  around.empty());
       known.lost = std::clamp(predicted[plane] - (rounded << kDetailBits), -32, 32);
       const std::int32_t residual =
-          models_.code(coder, known, Coder::kDecoding ? 0 : wanted[plane] - rounded);
+          models_.code(coder.lane(plane), known, Coder::kDecoding ? 0 : wanted[plane] - rounded);
       const std::int32_t value = rounded + residual;
       index[plane] = value & last;
       outside |= static_cast<std::uint32_t>(value ^ index[plane]);

@@ -1,6 +1,7 @@
 #pragma once
 #include "entropy/adaptive_models.hpp"
 #include "entropy/code_bits.hpp"
+#include "entropy/kept_coder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,14 +57,16 @@ template <class Coder>
   return negative ? -size : size;
 }
 
-/// Around large residuals the low bits are all alike: `raw_bits` of them, up to 15, go without a model.
+/// What a residual's symbol does not say; `high` is the symbol less kLargest. Around large residuals the low
+/// bits are all alike: `raw_bits` of them, up to 15, go without a model. Returns the residual; a decoder
+/// ignores the last argument.
 template <class Coder>
-[[gnu::noinline]] std::int32_t code_large(Coder& coder, AdaptiveSymbol& first, AdaptiveSymbol& second,
-                                          EscapeLength& escape_length, int raw_bits, std::int32_t residual) {
-  const std::int32_t wanted = residual >> raw_bits;
-  const std::uint32_t symbol = coder.code(first, second, symbol_of(wanted));
-  const std::int32_t high = symbol == kEscape ? code_escaped(coder, escape_length, wanted)
-                                              : static_cast<std::int32_t>(symbol) - kLargest;
+[[gnu::always_inline]] inline std::int32_t code_rest(Coder& coder, std::int32_t high,
+                                                     EscapeLength& escape_length, int raw_bits,
+                                                     std::int32_t residual) {
+  if (high > kLargest)
+    high = apart(coder, [&](Coder& cold) { return code_escaped(cold, escape_length, residual >> raw_bits); });
+  if (raw_bits == 0) return high;
   const std::uint32_t low =
       coder.code_raw(static_cast<std::uint32_t>(residual) & ((1u << raw_bits) - 1), raw_bits);
   const std::int64_t value = high * (std::int64_t{1} << raw_bits) + low;
@@ -72,15 +75,10 @@ template <class Coder>
 
 /// Codes a residual and returns it; a decoder ignores the argument.
 template <class Coder>
-[[gnu::always_inline]] inline std::int32_t code(Coder& coder, AdaptiveSymbol& first, AdaptiveSymbol& second,
-                                                EscapeLength& escape_length, int raw_bits,
-                                                std::int32_t residual) {
-  if (raw_bits > 0) [[unlikely]]
-    return code_large(coder, first, second, escape_length, raw_bits, residual);
-  const std::uint32_t symbol = coder.code(first, second, symbol_of(residual));
-  if (symbol == kEscape) [[unlikely]]
-    return code_escaped(coder, escape_length, residual);
-  return static_cast<std::int32_t>(symbol) - kLargest;
+std::int32_t code(Coder& coder, AdaptiveSymbol& first, AdaptiveSymbol& second, EscapeLength& escape_length,
+                  int raw_bits, std::int32_t residual) {
+  const std::uint32_t symbol = coder.code(first, second, symbol_of(residual >> raw_bits));
+  return code_rest(coder, static_cast<std::int32_t>(symbol) - kLargest, escape_length, raw_bits, residual);
 }
 
 }  // namespace tvg::residual_alphabet

@@ -29,7 +29,7 @@ class Schedule {
   Scheduled operator[](std::size_t turn) const {
     const auto vertex = static_cast<std::uint32_t>(turn);
     const Gate& gate = gates_[turn];
-    return {vertex, gate, gate.n != kNoVertex || turn == 0 ? gate.n : vertex - 1};
+    return {vertex, {gate.n, gate.p, gate.o}, gate.n != kNoVertex || turn == 0 ? gate.n : vertex - 1};
   }
 
  private:

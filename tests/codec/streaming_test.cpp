@@ -210,7 +210,7 @@ TEST(Streaming, MeasuredBitsAddUpToThePacketsAndChangeNothing) {
     ASSERT_GE(std::min({x, y, z}), 0);
     // Around the residuals: the packet's kind, size, its checksum and at most a byte to end the arithmetic
     // code.
-    ASSERT_NEAR(x + y + z, 8.0 * static_cast<double>(decoder.frame_bytes()), 8 * 8);
+    ASSERT_NEAR(x + y + z, 8.0 * static_cast<double>(decoder.frame_bytes()), 8 * 18);
     ASSERT_EQ(current_frame(decoder).positions, plain.frames[frames++].positions);
   }
   EXPECT_EQ(frames, plain.frames.size());

@@ -14,10 +14,13 @@ inline std::vector<std::uint32_t> trace_models(std::uint32_t seed) {
   AdaptiveSymbol a(static_cast<int>(symbols)), b;
   for (int step = 0; step < 300; ++step) {
     const SymbolMixture mixture(a, b);
-    for (std::uint32_t s = 0; s <= AdaptiveSymbol::kMaxSymbols; ++s) trace.push_back(mixture.cumulative(s));
+    for (std::uint32_t s = 0; s <= AdaptiveSymbol::kMaxSymbols; ++s)
+      trace.push_back(SymbolMixture::cumulative(a, b, s));
     for (int probe = 0; probe < 8; ++probe) {
-      const SymbolMixture::Interval found = mixture.find(next() % (1u << kProbabilityBits));
-      trace.insert(trace.end(), {found.symbol, found.low, found.high});
+      const std::uint32_t range = (1u << 15) + next() % (1u << 15);
+      const SymbolMixture::Found found = mixture.find(range, next() % range);
+      trace.insert(trace.end(), {found.symbol, found.interval.low, found.interval.high});
+      if (probe == 0) a.adapt(found.goals);
     }
     const std::uint32_t symbol = next() % 4 == 0 ? next() % symbols : 0;
     a.adapt(symbol);

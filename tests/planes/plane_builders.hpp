@@ -1,5 +1,5 @@
 #pragma once
-#include "entropy/range_coder.hpp"
+#include "entropy/two_ended_coder.hpp"
 #include "planes/plane_coder.hpp"
 
 #include <cstdint>
@@ -69,7 +69,7 @@ std::vector<std::vector<std::uint8_t>> encode_frames(const std::vector<Gate>& ga
                                                      const Lattice& lattice, Predictor predictor,
                                                      const std::vector<Frame>& frames) {
   PlaneCoder<kPlanes> coder(Schedule(gates), flags, lattice);
-  RangeEncoder encoder;
+  TwoEndedEncoder encoder;
   std::vector<std::vector<std::uint8_t>> packets;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     coder.next();

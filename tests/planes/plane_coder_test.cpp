@@ -19,7 +19,7 @@ void expect_frames_back(const std::vector<Gate>& gates, const std::vector<std::u
   PlaneCoder<kPlanes> back(Schedule(gates), flags, lattice);
   for (std::size_t f = 0; f < frames.size(); ++f) {
     back.next();
-    RangeDecoder decoder(packets[f]);
+    TwoEndedDecoder decoder(packets[f]);
     ASSERT_TRUE(back.code(decoder, predictor_at(f, predictor))) << "frame " << f;
     ASSERT_TRUE(decoder.finished()) << "frame " << f;
     const std::span<const Quad> indices = back.indices();
@@ -61,10 +61,10 @@ TEST(PlaneCoder, PredictorsMayChangeFromFrameToFrame) {
     const Predictor predictor = predictor_at(f, kPredictors[(f * f + f / 3) % 3]);
     writer.next();
     std::copy(frames[f].begin(), frames[f].end(), writer.indices().begin());
-    RangeEncoder encoder;
+    TwoEndedEncoder encoder;
     writer.code(encoder, predictor);
     const std::vector<std::uint8_t> packet = encoder.finish();
-    RangeDecoder decoder(packet);
+    TwoEndedDecoder decoder(packet);
     reader.next();
     ASSERT_TRUE(reader.code(decoder, predictor)) << "frame " << f;
     ASSERT_TRUE(decoder.finished());
@@ -175,7 +175,7 @@ TEST(PlaneCoder, DamagedPacketsLeaveEveryIndexOnItsLattice) {
     for (int frame = 0; frame < 4; ++frame) {
       std::vector<std::uint8_t> bytes(random() % 400);
       for (std::uint8_t& byte : bytes) byte = round % 4 == 0 ? 0xFF : static_cast<std::uint8_t>(random());
-      RangeDecoder decoder(bytes);
+      TwoEndedDecoder decoder(bytes);
       coder.next();
       coder.code(decoder, frame == 0 ? Predictor::kSpace : kPredictors[random() % 3]);
       for (const Quad& index : std::as_const(coder).indices()) {
@@ -190,7 +190,7 @@ TEST(PlaneCoder, WorkOnAnEmptyPacketEndsSoon) {
   const std::vector<Gate> gates(1000000);
   PlaneCoder<3> coder(Schedule(gates), {}, {{}, 1, 11, 11});
   coder.next();
-  RangeDecoder decoder({});
+  TwoEndedDecoder decoder({});
   EXPECT_FALSE(coder.code(decoder, Predictor::kSpace));
   EXPECT_TRUE(decoder.overrun());
 }

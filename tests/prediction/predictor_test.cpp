@@ -86,13 +86,18 @@ class SpyCoder {
  public:
   static constexpr bool kDecoding = false;
 
+  SpyCoder& lane(std::size_t plane) {
+    plane_ = plane;
+    return *this;
+  }
   std::uint32_t code(AdaptiveSymbol& /*a*/, AdaptiveSymbol& /*b*/, std::uint32_t symbol) {
     notes_.push_back({symbol == 15, static_cast<std::int32_t>(symbol) - 7});
     return symbol;
   }
   bool code(AdaptiveBit& /*model*/, bool bit) { return bit; }
   std::uint32_t code_raw(std::uint32_t value, int count) {
-    notes_.back().residual = notes_.back().residual * (1 << count) + static_cast<std::int32_t>(value);
+    Note& note = notes_[notes_.size() - 3 + plane_];
+    note.residual = note.residual * (1 << count) + static_cast<std::int32_t>(value);
     return value;
   }
 
@@ -113,6 +118,7 @@ class SpyCoder {
     std::int32_t residual = 0;
   };
   std::vector<Note> notes_;
+  std::size_t plane_ = 0;  ///< that is coded
 };
 
 /// Four vertices, the last one reached through the gate n = 0, p = 1, o = 2; all three axes alike.
