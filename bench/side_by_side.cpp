@@ -1,4 +1,5 @@
 #include "bench/other_codecs.hpp"
+#include "bench/rate_rows.hpp"
 #include "bench/sequences.hpp"
 #include "bench/tvg_codec.hpp"
 #include "corpus/corpus.hpp"
@@ -126,7 +127,11 @@ void run(const std::string& folder, int bits) {
       "the "
       "bounding box's diagonal.\n",
       bits, TvgSettings{}.gop_frames);
-  for (const std::string& name : names) print_codecs(load(folder, name), bits);
+  for (const std::string& name : names) {
+    const NamedSequence named = load(folder, name);
+    print_codecs(named, bits);
+    print_rate_rows(named);
+  }
   if (!names.empty()) return;
   std::printf("No sequences in %s: the project's own are used instead.\n", folder.c_str());
   for (const corpus::CorpusEntry& entry : corpus::corpus_entries()) {

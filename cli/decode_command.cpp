@@ -24,6 +24,7 @@ struct DecodeArguments {
   std::string output;
   std::string frames;
   unsigned threads = 0;
+  std::uint32_t components = kMaxComponents;
   bool conceal = false;
   bool quiet = false;
 };
@@ -44,6 +45,7 @@ class DecodeJob {
                                         : std::max(1u, std::thread::hardware_concurrency())) {}
 
   void run() {
+    reader_.decoder().use_components(arguments_.components);
     index_ = reader_.read_index();
     if (index_) total_ = index_->frame_count();
     if (!arguments_.frames.empty()) {
@@ -148,7 +150,8 @@ class DecodeJob {
                                 reader_.decoder().head().limits.vertices * 3 * sizeof(float);
     if (bytes > kMostBytesAhead / (threads_ + 1)) return;
     std::uint64_t told_mesh = first_mesh_offset(*index_);
-    DecodeAhead ahead(arguments_.input, *index_, wanted_.value_or(FrameRange{0, *total_ - 1}), threads_);
+    DecodeAhead ahead(arguments_.input, *index_, wanted_.value_or(FrameRange{0, *total_ - 1}), threads_,
+                      arguments_.components);
     while (std::optional<DecodedGop> gop = ahead.next()) {
       if (!gop->whole) {
         reader_.seek(gop->first_frame);
@@ -236,6 +239,11 @@ void add_decode_command(CLI::App& tool) {
           "sequence of mesh files (back_%04d.obj, .ply, .off, .stl)")
       ->required();
   command.add_option("--frames", arguments->frames, "decode frames A-B only, counted from 0");
+  command
+      .add_option("--components", arguments->components,
+                  "of planes that GOPs in mode basis share, use only so many, rounded up to a multiple of 4: "
+                  "coarser, and sooner done (default: all)")
+      ->check(CLI::Range(1u, kMaxComponents));
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
   command.add_option("--threads", arguments->threads, "GOPs decoded at a time (default: one per processor)")

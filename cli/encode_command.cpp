@@ -9,6 +9,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <memory>
@@ -24,6 +26,7 @@ namespace {
 constexpr int kMostBits = 24;
 constexpr int kMostThreads = 1024;
 constexpr std::uint32_t kLiveGopFrames = 15;  // who joins a live stream waits half a second at most
+constexpr std::uint32_t kBasisGopFrames = 32;
 constexpr double kUsualFrameRate = 30;
 
 struct EncodeArguments : InputArguments {
@@ -33,7 +36,11 @@ struct EncodeArguments : InputArguments {
   MeasureArguments measure;
   std::string predictor = "elp";
   std::string mode = "elp";
+  bool lossless = false;
   std::optional<std::uint32_t> gop;
+  std::string period;
+  std::string max_error;
+  int effort = 5;
   unsigned threads = 0;
   bool reorder = false;
   bool live = false;
@@ -63,17 +70,47 @@ Metadata metadata_of(const EncodeArguments& arguments) {
   return metadata;
 }
 
-Mode parse_mode(const std::string& text) {
-  if (text == "elp") return Mode::kElp;
-  if (text == "basis") {
-    fail_option("--mode", text, "this mode is not there yet, and no stream has it: write elp");
-  }
-  fail_option("--mode", text, "write elp");
+/// Frames of a period: a number, or all there are.
+std::uint32_t parse_period(const std::string& text) {
+  constexpr std::uint32_t kMost = 65536;
+  if (text == "all") return kMost;
+  std::uint32_t frames = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frames);
+  if (error != std::errc() || end != text.data() + text.size() || frames == 0 || frames > kMost)
+    fail_option("--period", text, "write a number of frames from 1 to 65536, or all");
+  return frames;
+}
+
+/// A length in the mesh's units, or a share of the diagonal: 0.05%.
+ErrorBound parse_error_bound(const std::string& text) {
+  ErrorBound bound;
+  const bool share = !text.empty() && text.back() == '%';
+  const char* const last = text.data() + text.size() - (share ? 1 : 0);
+  const auto [end, error] = std::from_chars(text.data(), last, bound.value);
+  if (error != std::errc() || end != last || !(bound.value > 0) || !std::isfinite(bound.value))
+    fail_option("--max-error", text,
+                "write a length in the mesh's units (0.01), or a share of the diagonal (0.05%)");
+  bound.of_diagonal = share;
+  if (share) bound.value /= 100;
+  return bound;
+}
+
+/// Mode elp and mode basis each have options that mean nothing to the other.
+void check_mode(const EncodeArguments& arguments) {
+  if (arguments.mode == "basis" && arguments.predictor != "elp")
+    throw ToolError(ExitStatus::kUsage, "--predictor is of --mode elp: a basis has none to choose from");
+  if (arguments.mode != "basis" && !arguments.period.empty())
+    throw ToolError(ExitStatus::kUsage,
+                    "--period needs --mode basis, whose planes the frames of a period share");
 }
 
 EncodeOptions options_of(const EncodeArguments& arguments) {
+  check_mode(arguments);
   EncodeOptions options;
-  options.mode = parse_mode(arguments.mode);
+  options.mode = arguments.lossless ? Mode::kLossless : arguments.mode == "basis" ? Mode::kBasis : Mode::kElp;
+  options.effort = arguments.effort;
+  if (!arguments.period.empty()) options.period_frames = parse_period(arguments.period);
+  if (!arguments.max_error.empty()) options.max_error = parse_error_bound(arguments.max_error);
   if (arguments.step.empty()) {
     const BitPair bits = parse_bits(arguments.bits);
     options.fine_bits = bits.fine;
@@ -97,10 +134,12 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
       {"pyramid", Predictor::kPyramid},
       {"auto",
        Predictor::kAuto}}.at(arguments.predictor);
-  options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : options.gop_frames);
+  const std::uint32_t usual_gop = options.mode == Mode::kBasis ? kBasisGopFrames : options.gop_frames;
+  options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : usual_gop);
   options.keep_vertex_order = !arguments.reorder;
   options.threads =
       arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
+  if (arguments.live && arguments.period.empty()) options.period_frames = options.gop_frames;
   if (arguments.live) options.threads = 1;  // with more, a GOP would wait for those that follow it
   options.metadata = metadata_of(arguments);
   return options;
@@ -139,6 +178,8 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
       report.gops, readable_bytes(report.bytes),
       bits_per_coordinate(report.bytes, report.vertices, report.frames),
       static_cast<double>(raw) / static_cast<double>(report.bytes));
+  if (report.largest_error > 0)
+    fmt::print(stderr, "no coordinate is off by more than {:.3g}\n", report.largest_error);
 }
 
 Result<LiveReport> encode_whole(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
@@ -178,6 +219,50 @@ void run_encode(const EncodeArguments& arguments) {
   print_report(arguments, *report);
 }
 
+/// How positions are coded: what there is to choose of it, or that nothing is.
+void add_coding_options(CLI::App& command, EncodeArguments& arguments) {
+  const std::size_t before = command.get_options().size();
+  auto* bits = command
+                   .add_option("--bits", arguments.bits,
+                               "bits per coordinate of important and of other vertices (13:11), or of all")
+                   ->capture_default_str();
+  command
+      .add_option("--step", arguments.step,
+                  "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no "
+                  "coordinate is off by more than half a step, but for the rounding of decoded positions "
+                  "to float32")
+      ->excludes(bits);
+  command
+      .add_option(
+          "--max-error", arguments.max_error,
+          "instead of bits: what no coordinate may be off by more, in the mesh's units (0.01) or as a "
+          "share of the diagonal of the sequence's box (0.05%)")
+      ->excludes(bits)
+      ->excludes("--step");
+  add_measure_options(command, arguments.measure);
+  command
+      .add_option("--mode", arguments.mode,
+                  "how frames are coded: elp, each from those before it; or basis, sums of planes that a "
+                  "period shares, for far smaller files")
+      ->check(CLI::IsMember({"elp", "basis"}))
+      ->capture_default_str();
+  command.add_option("--period", arguments.period,
+                     "in mode basis: frames that share planes, or all; more make smaller files that take "
+                     "longer to begin (default 128; with --live the GOP)");
+  command
+      .add_option("--predictor", arguments.predictor,
+                  "what vertices are predicted from: elp as the paper has it, pyramid for "
+                  "smaller files, auto for the smaller of the two in each frame")
+      ->check(CLI::IsMember({"space", "time", "elp", "pyramid", "auto"}))
+      ->capture_default_str();
+  const std::vector<CLI::Option*> choices = command.get_options();
+  auto* lossless = command.add_flag(
+      "--lossless", arguments.lossless,
+      "keep every bit of the float32 positions; there is nothing to choose then of bits, step, "
+      "importance, mode and predictor");
+  for (std::size_t i = before; i < choices.size(); ++i) lossless->excludes(choices[i]);
+}
+
 }  // namespace
 
 void add_encode_command(CLI::App& tool) {
@@ -188,28 +273,16 @@ void add_encode_command(CLI::App& tool) {
       .add_option("-o,--output", arguments->output,
                   "the stream to write; - for standard output; an http or https URL for an upload by PUT")
       ->required();
-  auto* bits = command
-                   .add_option("--bits", arguments->bits,
-                               "bits per coordinate of important and of other vertices (13:11), or of all")
-                   ->capture_default_str();
+  add_coding_options(command, *arguments);
   command
       .add_option(
-          "--step", arguments->step,
-          "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no coordinate is "
-          "off by more than half a step, but for the rounding of decoded positions to float32")
-      ->excludes(bits);
-  add_measure_options(command, arguments->measure);
-  command.add_option("--mode", arguments->mode, "how frames are coded: elp")->capture_default_str();
-  command
-      .add_option(
-          "--predictor", arguments->predictor,
-          "what vertices are predicted from: elp as the paper has it, pyramid for smaller files, auto for "
-          "the smaller of the two in each frame")
-      ->check(CLI::IsMember({"space", "time", "elp", "pyramid", "auto"}))
+          "--effort", arguments->effort,
+          "1 (fast) to 9 (small): what mode basis tries, and neighbours that the pyramid predicts from")
+      ->check(CLI::Range(1, 9))
       ->capture_default_str();
   command
       .add_option("--gop", arguments->gop,
-                  "frames that can be decoded on their own (default 50; with --live 15)")
+                  "frames that can be decoded on their own (default 50; in mode basis 32; with --live 15)")
       ->check(CLI::Range(1, 65536));
   command.add_flag("--reorder", arguments->reorder,
                    "give up the vertex order, which saves about a byte per vertex");

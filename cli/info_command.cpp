@@ -31,12 +31,18 @@ struct InfoArguments {
 
 /// What only decoding tells.
 struct DecodedFacts {
-  std::array<double, 3> residuals{};               ///< bytes of x, y and z
-  std::array<std::uint64_t, 4> predicted{};        ///< frames by their predictor
+  std::array<double, 3> residuals{};                       ///< bytes of x, y and z
+  double rows = 0;                                         ///< bytes of the rows of frames in mode basis
+  std::array<std::uint64_t, kPredictorCount> predicted{};  ///< frames by their predictor
   std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
 };
 
-constexpr std::array<const char*, 4> kPredictorNames = {"space", "time", "elp", "pyramid"};
+constexpr std::array<const char*, kPredictorCount> kPredictorNames = {"space", "time", "elp", "pyramid",
+                                                                      "rows"};
+
+const char* name_of(Mode mode) {
+  return mode == Mode::kLossless ? "lossless" : mode == Mode::kBasis ? "basis" : "elp";
+}
 
 /// All that is shown of a stream.
 struct StreamSummary {
@@ -62,16 +68,20 @@ struct StreamSummary {
 
 /// Bytes by what they serve; the last takes what is left.
 std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summary) {
-  double connectivity = 0, order = 0, shape = 0, flags = 0;
+  double connectivity = 0, order = 0, shape = 0, flags = 0, planes = 0;
   for (const SurveyedMesh& mesh : summary.stream.meshes) {
     connectivity += static_cast<double>(mesh.parts.connectivity_bytes);
     order += static_cast<double>(mesh.parts.order_bytes);
     shape += static_cast<double>(mesh.parts.shape_bytes);
   }
   for (const GopInfo& gop : summary.stream.gops) flags += static_cast<double>(gop.flag_bytes);
-  std::vector<std::pair<const char*, double>> result = {
-      {"connectivity", connectivity}, {"order", order}, {"shape", shape}, {"flags", flags}};
-  double left = static_cast<double>(summary.stream.bytes) - connectivity - order - shape - flags;
+  for (const SurveyedPlan& plan : summary.stream.plans) planes += static_cast<double>(plan.bytes);
+  std::vector<std::pair<const char*, double>> result = {{"connectivity", connectivity},
+                                                        {"order", order},
+                                                        {"shape", shape},
+                                                        {"flags", flags},
+                                                        {"planes", planes}};
+  double left = static_cast<double>(summary.stream.bytes) - connectivity - order - shape - flags - planes;
   if (!summary.decoded) {
     result.emplace_back("frames_and_container", left);
     return result;
@@ -81,8 +91,18 @@ std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summar
     result.emplace_back(kNames[axis], summary.decoded->residuals[axis]);
     left -= summary.decoded->residuals[axis];
   }
+  result.emplace_back("rows", summary.decoded->rows);
+  left -= summary.decoded->rows;
   result.emplace_back("container", left);
   return result;
+}
+
+/// What the frame says that was just decoded. A row is one of x, y and z together.
+void take_frame(const Decoder& decoder, DecodedFacts& facts) {
+  const Predictor predictor = decoder.frame_predictor();
+  ++facts.predicted.at(static_cast<std::size_t>(predictor));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    (predictor == Predictor::kRows ? facts.rows : facts.residuals[axis]) += decoder.frame_bits()[axis] / 8;
 }
 
 DecodedFacts decode_facts(const std::string& path, std::uint64_t& damages) {
@@ -97,8 +117,7 @@ DecodedFacts decode_facts(const std::string& path, std::uint64_t& damages) {
         facts.flagged[decoder.gop().first_frame] = decoder.gop().flagged;
         break;
       case Decoder::Event::kFrame:
-        ++facts.predicted[static_cast<std::size_t>(decoder.frame_predictor())];
-        for (std::size_t axis = 0; axis < 3; ++axis) facts.residuals[axis] += decoder.frame_bits()[axis] / 8;
+        take_frame(decoder, facts);
         break;
       case Decoder::Event::kDamage:
         ++damages;
@@ -143,7 +162,9 @@ std::vector<std::string> predictors_of(const GopInfo& gop) {
 nlohmann::json to_json(const GopInfo& gop) {
   return {{"first_frame", gop.first_frame},
           {"frame_count", gop.frame_count},
+          {"mode", name_of(gop.mode)},
           {"predictors", predictors_of(gop)},
+          {"components", gop.components},
           {"fine_bits", gop.fine_bits},
           {"coarse_bits", gop.coarse_bits},
           {"origin", gop.origin},
@@ -163,6 +184,9 @@ void print_json(const StreamSummary& summary) {
                     {"packet_bytes", limits.packet_bytes},
                     {"meshes", limits.meshes},
                     {"mesh_bytes", limits.mesh_bytes},
+                    {"plan_bytes", limits.plan_bytes},
+                    {"components", limits.components},
+                    {"plans", limits.plans},
                     {"decoder_memory", limits.decoder_memory}};
   json["metadata"] = stream.metadata;
   json["bytes"] = stream.bytes;
@@ -180,6 +204,12 @@ void print_json(const StreamSummary& summary) {
   }
   for (const ChunkInfo& chunk : stream.chunks) {
     json["chunks"].push_back({{"type", chunk.type}, {"offset", chunk.offset}, {"bytes", chunk.bytes}});
+  }
+  for (const SurveyedPlan& plan : stream.plans) {
+    json["planes"].push_back({{"first_frame", plan.first_frame},
+                              {"frame_count", plan.frame_count},
+                              {"components", plan.components},
+                              {"bytes", plan.bytes}});
   }
   for (const GopInfo& gop : stream.gops) {
     json["gops"].push_back(to_json(gop));
@@ -204,8 +234,8 @@ void print_purposes(const StreamSummary& summary) {
 
 void print_gops(const StreamSummary& summary) {
   const StreamSurvey& stream = summary.stream;
-  fmt::print("\nGOPs\n  {:>8} {:>7} {:>6} {:>9} {:>12} {:>9}  {}\n", "first", "frames", "bits", "step",
-             "bytes", summary.decoded ? "flagged" : "", "predictors");
+  fmt::print("\nGOPs\n  {:>8} {:>7}  {:<8} {:>6} {:>9} {:>12} {:>9}  {}\n", "first", "frames", "mode", "bits",
+             "step", "bytes", summary.decoded ? "flagged" : "", "predictors");
   for (std::size_t i = 0; i < stream.gops.size(); ++i) {
     const GopInfo& gop = stream.gops[i];
     const std::string bits = gop.fine_bits == gop.coarse_bits
@@ -214,9 +244,19 @@ void print_gops(const StreamSummary& summary) {
     std::string flagged;
     if (const auto count = summary.flagged(gop))
       flagged = fmt::format("{:.1f} %", 100.0 * *count / stream.meshes[stream.gop_meshes[i]].vertices);
-    fmt::print("  {:>8} {:>7} {:>6} {:>9.4g} {:>12} {:>9}  {}\n", gop.first_frame, gop.frame_count, bits,
-               gop.step, gop.bytes, flagged, fmt::join(predictors_of(gop), ", "));
+    fmt::print("  {:>8} {:>7}  {:<8} {:>6} {:>9.4g} {:>12} {:>9}  {}\n", gop.first_frame, gop.frame_count,
+               name_of(gop.mode), bits, gop.step, gop.bytes, flagged, fmt::join(predictors_of(gop), ", "));
   }
+}
+
+/// Planes that GOPs share: their frames are a basis period.
+void print_planes(const StreamSummary& summary) {
+  if (summary.stream.plans.empty()) return;
+  fmt::print("\nplanes shared by GOPs\n  {:>8} {:>7} {:>11} {:>12}\n", "first", "frames", "components",
+             "bytes");
+  for (const SurveyedPlan& plan : summary.stream.plans)
+    fmt::print("  {:>8} {:>7} {:>11} {:>12}\n", plan.first_frame, plan.frame_count, plan.components,
+               plan.bytes);
 }
 
 void print_text(const StreamSummary& summary) {
@@ -243,6 +283,7 @@ void print_text(const StreamSummary& summary) {
   }
   if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
   print_purposes(summary);
+  print_planes(summary);
   print_gops(summary);
   fmt::print("\nchunks\n");
   for (const ChunkInfo& chunk : stream.chunks) {

@@ -2,6 +2,9 @@
 #include "base/stream_error.hpp"
 #include "decoder/decoder_state.hpp"
 
+#include <array>
+#include <optional>
+#include <span>
 #include <utility>
 
 // The decoding pipeline: bytes → structures (ChunkReader) → mesh, GOP, frames (decode_mesh, GopDecoder) →
@@ -30,6 +33,8 @@ std::optional<Decoder::Event> Decoder::State::step() {
       return Event::kMetadata;
     case ChunkReader::Event::kMesh:
       return take_mesh();
+    case ChunkReader::Event::kPlan:
+      return take_plan();
     case ChunkReader::Event::kGop:
       return begin_gop();
     case ChunkReader::Event::kGopLost:
@@ -91,6 +96,42 @@ Status Decoder::State::decode_mesh_read() {
   return {};
 }
 
+/// Planes that cannot be used lose no frame by themselves: the GOPs that name them do.
+// format-spec §4.9
+std::optional<Decoder::Event> Decoder::State::take_plan() {
+  if (!map_.note({{.offset = reader.chunk_offset(), .kind = IndexEntry::Kind::kPlan}, frames_.position()})) {
+    reader.fail(out_of_memory());
+    return std::nullopt;
+  }
+  if (plan_in_force(reader.plan_id()) != nullptr) return std::nullopt;
+  Result<BasisPlan> decoded = decode_basis_plan(reader.plan().fields, mesh_in_force(reader.plan().mesh),
+                                                reader.head().limits, most_components);
+  if (decoded && can_allocate(kSmallThings)) {
+    reader.keep(std::make_shared<const BasisPlan>(std::move(*decoded)));
+    return std::nullopt;
+  }
+  Error cause = decoded ? out_of_memory() : std::move(decoded.error());
+  cause.byte_offset = reader.chunk_offset();
+  if (cause.code == ErrorCode::kOutOfMemory) {
+    reader.fail(std::move(cause));
+    return std::nullopt;
+  }
+  reader.reject(cause.code);
+  return tell(frames_.lose(0, std::move(cause)));
+}
+
+/// Planes as they were decoded; null where none of this name are in force.
+std::shared_ptr<const BasisPlan> Decoder::State::plan_in_force(std::uint32_t id) const {
+  const ChunkWindow::Entry* const entry = reader.plans().find(id);
+  return entry == nullptr ? nullptr : std::static_pointer_cast<const BasisPlan>(entry->content);
+}
+
+/// The planes that the GOP names which is being read; null where those are not one chunk.
+std::shared_ptr<const BasisPlan> Decoder::State::plan_of_gop() const {
+  const GopHeader& header = reader.gop();
+  return header.plane_count() == 1 ? plan_in_force(ByteReader(header.planes).u32()) : nullptr;
+}
+
 /// A mesh as it was decoded; null where none of this name is in force.
 std::shared_ptr<const GopMesh> Decoder::State::mesh_in_force(std::uint32_t id) const {
   const ChunkWindow::Entry* const entry = reader.meshes().find(id);
@@ -109,8 +150,10 @@ std::optional<Decoder::Event> Decoder::State::begin_gop() {
   const GopHeader& header = reader.gop();
   const std::uint64_t missing = frames_.meet_gop(header.first_frame, header.frame_count, indexed_place());
   if (is_on_the_way(missing)) return pass_gop(missing);
-  const bool another_mesh = show(mesh_in_force(header.mesh));
-  if (Status begun = gop.begin(header, mesh); !begun.ok()) return reject_gop(missing, begun.error());
+  const std::shared_ptr<const GopMesh> its_mesh = mesh_in_force(header.mesh);
+  if (Status begun = gop.begin(header, its_mesh, plan_of_gop()); !begun.ok())
+    return reject_gop(missing, begun.error());
+  const bool another_mesh = show(its_mesh);
   std::optional<Event> told = check_place();
   if (frames_.has_unknown()) told = tell(frames_.lose(missing, frames_.take_cause({})));
   note_gop();
@@ -140,11 +183,20 @@ Decoder::Event Decoder::State::reject_gop(std::uint64_t missing, Error cause) {
 
 /// Takes note of where the GOP lies whose header was just read.
 void Decoder::State::note_gop() {
-  const IndexEntry entry{.offset = reader.chunk_offset(), .frame_count = reader.gop().frame_count};
-  const auto* const in_force = reader.meshes().find(reader.gop().mesh);
-  if (!map_.note(
-          {entry, frames_.position(), in_force != nullptr ? std::optional(in_force->offset) : std::nullopt}))
-    reader.fail(out_of_memory());
+  const GopHeader& header = reader.gop();
+  StreamMap::Place place{{.offset = reader.chunk_offset(), .frame_count = header.frame_count},
+                         frames_.position()};
+  if (const auto* const in_force = reader.meshes().find(header.mesh)) place.mesh_offset = in_force->offset;
+  std::array<std::uint64_t, GopHeader::kMostPlanes> plan_offsets{};
+  std::size_t known = 0;
+  ByteReader ids(header.planes);
+  for (std::size_t i = 0; i < header.plane_count(); ++i) {
+    const auto* const in_force = reader.plans().find(ids.u32());
+    if (in_force != nullptr) plan_offsets[known++] = in_force->offset;
+  }
+  const std::optional<PlaneList> plans = PlaneList::of(std::span(plan_offsets).first(known));
+  if (plans) place.plan_offsets = *plans;
+  if (!plans || !map_.note(place)) reader.fail(out_of_memory());
 }
 
 std::optional<Decoder::Event> Decoder::State::decode_frame() {
@@ -276,6 +328,9 @@ Result<std::uint64_t> Decoder::seek(std::uint64_t frame) {
 }
 std::uint64_t Decoder::skip() {
   return state_->skip();
+}
+void Decoder::use_components(std::uint32_t most) {
+  state_->most_components = most;
 }
 const GopInfo& Decoder::gop() const {
   return state_->gop_info;

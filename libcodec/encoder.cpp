@@ -1,6 +1,7 @@
 #include "base/errors.hpp"
 #include "container/chunk.hpp"
 #include "container/stream_writer.hpp"
+#include "encoder/effort.hpp"
 #include "encoder/encode_checks.hpp"
 #include "encoder/gop_queue.hpp"
 #include "modes/gop_encoder.hpp"
@@ -45,20 +46,36 @@ struct Job {
   StreamLimits limits;
 };
 
-/// Algorithm 1, then the GOP's chunk.
-Result<GopChunk> mark_and_encode(const Job& job) {
+/// What no coordinate may be off by more, in steps of the lattice, if that is asked for.
+std::optional<double> half_step_of(const EncodeOptions& options) {
+  return options.max_error ? std::optional(0.5) : std::nullopt;
+}
+
+/// Algorithm 1, then the chunks.
+Result<EncodedRun> mark_and_encode(const Job& job) {
   GopInput input{.frames = job.gop.content->frames,
+                 .mode = job.stretch->options->mode,
                  .first_frame = job.gop.first_frame,
                  .lattice = job.lattice,
                  .flags = {},
-                 .predictor = job.stretch->options->predictor};
+                 .predictor = job.stretch->options->predictor,
+                 .basis = {}};
+  const EncodeOptions& options = *job.stretch->options;
+  input.basis = {options.gop_frames, half_step_of(options), effort_of(options.effort).fit};
   if (job.lattice.hybrid()) {
     const GopFrames& seen = *job.gop.marked_by;
     Result<Measure> measured = job.stretch->measurer.measure(seen.frames, seen.joints);
     if (!measured) return measured.error();
     input.flags = std::move(measured->flags);
   }
-  return encode_gop(input, job.stretch->encoded.mesh, job.limits);
+  return encode_run(input, job.stretch->encoded.mesh, job.limits);
+}
+
+/// A largest error is half a step.
+EncodeOptions with_step(EncodeOptions options) {
+  if (options.max_error && !options.max_error->of_diagonal && !options.step)
+    options.step = 2 * options.max_error->value;
+  return options;
 }
 
 Error no_memory() {
@@ -70,12 +87,12 @@ Error no_memory() {
 class Encoder::State {
  public:
   State(EncodeOptions options, ByteSink sink, EncodeProgress progress)
-      : options_(std::make_shared<const EncodeOptions>(std::move(options))),
+      : options_(std::make_shared<const EncodeOptions>(with_step(std::move(options)))),
         progress_(std::move(progress)),
         writer_(std::move(sink)),
         queue_(std::max(1u, options_->threads)),
         with_joints_(uses_skeleton(options_->importance)) {
-    report_.box_of_each_gop = !options_->box && !options_->step;
+    report_.box_of_each_gop = needs_box(*options_) && !options_->box && !options_->step;
   }
 
   Status set_mesh(const Mesh& mesh, const Skeleton& skeleton) {
@@ -130,6 +147,8 @@ class Encoder::State {
       return Error{ErrorCode::kWrongState, "the mesh before this one has no frames"};
     if (!stretch_) {
       if (Status status = check_options(*options_); !status.ok()) return status;
+      if (options_->max_error && options_->max_error->of_diagonal)
+        return invalid_argument("the diagonal is not known before the frames: give the error as a length");
     }
     if (Status status = check_mesh(mesh); !status.ok()) return status;
     if (stretch_ && (mesh.vertex_count > limits_.vertices || mesh.faces.size() > limits_.faces)) {
@@ -189,7 +208,7 @@ class Encoder::State {
     }
     frames_before_ = frames_added();
     stretch_ = std::move(stretch);
-    cutter_.emplace(options_->gop_frames, options_->importance.low_delay);
+    cutter_.emplace(frames_at_once(*options_), options_->importance.low_delay);
     mesh_written_ = false;
     return needs_shape(*options_) ? Status() : write_mesh({});
   }
@@ -199,7 +218,8 @@ class Encoder::State {
     EncodedMesh connectivity = encode_mesh(stretch_->mesh, options_->keep_vertex_order);
     if (needs_shape(*options_)) {
       Result<EncodedGopMesh> encoded =
-          finish_mesh(std::move(connectivity), first_frame, std::min(options_->fine_bits + 1, kMaxBits));
+          finish_mesh(std::move(connectivity), first_frame, shape_cell(*options_, first_frame),
+                      effort_of(options_->effort).neighbours);
       if (!encoded) return encoded.error();
       stretch_->encoded = std::move(*encoded);
     } else {
@@ -214,15 +234,14 @@ class Encoder::State {
 
   Status enqueue(GopContent gop) {
     const BoundingBox gop_box = std::exchange(gop_box_, BoundingBox());
-    const Result<Lattice> lattice = lattice_for(options_->box.value_or(gop_box));
+    const Result<Lattice> lattice =
+        options_->mode == Mode::kLossless ? Lattice() : lattice_for(options_->box.value_or(gop_box));
     if (!lattice) return lattice.error();
     while (queue_.full()) {
       if (Status status = write(queue_.take_or_make_room()); !status.ok()) return status;
     }
     gop.first_frame += options_->first_frame + frames_before_;
-    const auto frame_count = static_cast<std::uint32_t>(gop.content->frames.size());
-    queue_.add(frame_count,
-               [job = Job{std::move(gop), stretch_, *lattice, limits_}] { return mark_and_encode(job); });
+    queue_.add([job = Job{std::move(gop), stretch_, *lattice, limits_}] { return mark_and_encode(job); });
     return {};
   }
 
@@ -230,26 +249,33 @@ class Encoder::State {
     if (std::optional<GopContent> gop = cutter_->flush()) {
       if (Status status = enqueue(std::move(*gop)); !status.ok()) return status;
     }
-    while (std::optional<GopQueue::Done> done = queue_.take_next()) {
+    while (std::optional<Result<EncodedRun>> done = queue_.take_next()) {
       if (Status status = write(std::move(done)); !status.ok()) return status;
     }
     return {};
   }
 
   Status write_what_is_done() {
-    while (std::optional<GopQueue::Done> done = queue_.take()) {
+    while (std::optional<Result<EncodedRun>> done = queue_.take()) {
       if (Status status = write(std::move(done)); !status.ok()) return status;
     }
     return {};
   }
 
-  Status write(std::optional<GopQueue::Done> done) {
+  Status write(std::optional<Result<EncodedRun>> done) {
     if (!done) return {};
-    if (!done->chunk) return done->chunk.error();
-    if (Status status = writer_.write_gop_chunk(*done->chunk, done->frame_count); !status.ok()) return status;
-    report_.frames += done->frame_count;
-    ++report_.gops;
-    if (progress_) progress_(report_.frames, std::nullopt);
+    if (!*done) return done->error();
+    const EncodedRun& run = **done;
+    if (!run.plan.empty()) {
+      if (Status status = writer_.write_plan_chunk(run.plan); !status.ok()) return status;
+    }
+    report_.largest_error = std::max(report_.largest_error, run.largest_error);
+    for (const EncodedGop& gop : run.gops) {
+      if (Status status = writer_.write_gop_chunk(gop.chunk, gop.frame_count); !status.ok()) return status;
+      report_.frames += gop.frame_count;
+      ++report_.gops;
+      if (progress_) progress_(report_.frames, std::nullopt);
+    }
     return {};
   }
 
@@ -325,10 +351,17 @@ Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
 
 Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
                               const EncodeProgress& progress) {
-  if (!options.box && !options.step) {
+  if (needs_box(options)) {
     const Result<std::optional<BoundingBox>> box = scan_box(source);
     if (!box) return box.error();
-    options.box = *box;
+    if (!options.box) options.box = *box;
+  }
+  if (options.max_error) {
+    if (Status status = resolve_max_error(options); !status.ok()) return status.error();
+  }
+  if (const std::optional<std::uint64_t> frames = source.frame_count()) {
+    options.period_frames =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(*frames, 1, frames_at_once(options)));
   }
   options.metadata.merge(source.metadata());
   EncodeProgress with_total;

@@ -5,6 +5,14 @@
 
 namespace tvg::server {
 
+namespace {
+
+SharedBytes shared(std::vector<std::uint8_t> bytes) {
+  return std::make_shared<const std::vector<std::uint8_t>>(std::move(bytes));
+}
+
+}  // namespace
+
 bool LiveStream::add(StreamPart part) {
   const std::lock_guard lock(mutex_);
   if (ended_) return false;
@@ -17,7 +25,10 @@ bool LiveStream::add(StreamPart part) {
       start_.metadata = std::move(part.metadata);
       break;
     case StreamPart::Kind::kMesh:
-      add_mesh(part.mesh, std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk)));
+      add_named(meshes_, start_.limits.meshes, part.mesh, shared(std::move(part.chunk)));
+      break;
+    case StreamPart::Kind::kPlan:
+      add_named(plans_, start_.limits.plans, part.planes.front(), shared(std::move(part.chunk)));
       break;
     case StreamPart::Kind::kGop:
       add_gop(std::move(part));
@@ -30,26 +41,31 @@ bool LiveStream::add(StreamPart part) {
   return true;
 }
 
-void LiveStream::add_mesh(std::uint32_t name, SharedBytes chunk) {
-  std::erase_if(meshes_, [name](const LiveMesh& mesh) { return mesh.name == name; });
-  meshes_.push_back({name, std::move(chunk)});
+void LiveStream::add_named(ChunksInForce& in_force, std::size_t most, std::uint32_t name,
+                           SharedBytes chunk) const {
+  std::erase_if(in_force, [name](const NamedChunk& known) { return known.name == name; });
+  in_force.push_back({name, std::move(chunk)});
   std::uint64_t bytes = 0;
   std::size_t kept = 0;
-  for (auto mesh = meshes_.rbegin(); mesh != meshes_.rend() && kept < start_.limits.meshes; ++mesh, ++kept) {
-    bytes += mesh->chunk->size();
+  for (auto known = in_force.rbegin(); known != in_force.rend() && kept < most; ++known, ++kept) {
+    bytes += known->chunk->size();
     if (kept > 0 && bytes > kept_bytes_) break;
   }
-  meshes_.erase(meshes_.begin(), meshes_.end() - static_cast<std::ptrdiff_t>(kept));
+  in_force.erase(in_force.begin(), in_force.end() - static_cast<std::ptrdiff_t>(kept));
 }
 
 void LiveStream::add_gop(StreamPart part) {
-  const auto mesh = std::find_if(meshes_.begin(), meshes_.end(),
-                                 [&part](const LiveMesh& kept) { return kept.name == part.mesh; });
+  const auto find = [](const ChunksInForce& in_force, std::uint32_t name) {
+    const auto chunk = std::ranges::find(in_force, name, &NamedChunk::name);
+    return chunk == in_force.end() ? nullptr : chunk->chunk;
+  };
   frames_ += part.frame_count;
-  if (mesh == meshes_.end()) return;  // of a mesh that took too much memory to keep
-  newest_.push_back({gops_, mesh->chunk,
-                     std::make_shared<const std::vector<std::uint8_t>>(std::move(part.chunk)),
-                     part.frame_count});
+  LiveGop gop{gops_, find(meshes_, part.mesh), {}, nullptr, part.frame_count};
+  for (const std::uint32_t name : part.planes) gop.planes.push_back(find(plans_, name));
+  const bool kept = gop.mesh != nullptr && std::ranges::count(gop.planes, nullptr) == 0;
+  if (!kept) return;  // of a mesh or planes that took too much memory to keep
+  gop.chunk = shared(std::move(part.chunk));
+  newest_.push_back(std::move(gop));
   ++gops_;
   keep_newest();
 }
@@ -204,9 +220,13 @@ Status LiveViewer::write_next(std::chrono::milliseconds time, bool& done) {
     done = true;
     return assembler_.end();
   }
-  if (gop.mesh != mesh_) {
+  if (gop.mesh != mesh_ || gop.planes != planes_) {
     mesh_ = gop.mesh;
+    planes_ = gop.planes;
     if (Status status = assembler_.write_mesh(*mesh_); !status.ok()) return status;
+    for (const SharedBytes& chunk : planes_) {
+      if (Status status = assembler_.write_plan(*chunk); !status.ok()) return status;
+    }
   }
   wanted_ = gop.number + 1;
   return assembler_.write_gop(*gop.chunk, gop.frame_count);

@@ -21,8 +21,9 @@ using SharedBytes = std::shared_ptr<const std::vector<std::uint8_t>>;
 
 /// A GOP that viewers can be given.
 struct LiveGop {
-  std::uint64_t number = 0;  ///< of the GOP in its live stream, counted from 0
-  SharedBytes mesh;          ///< chunk of the mesh it belongs to
+  std::uint64_t number = 0;         ///< of the GOP in its live stream, counted from 0
+  SharedBytes mesh;                 ///< chunk of the mesh it belongs to
+  std::vector<SharedBytes> planes;  ///< chunks of those it needs
   SharedBytes chunk;
   std::uint32_t frame_count = 0;
 };
@@ -38,9 +39,9 @@ struct LiveStatus {
   std::int64_t since = 0;  ///< when it began, in seconds since 1970
 };
 
-/// One live stream: keeps the newest GOPs, the meshes in force as far as they take no more memory than these,
-/// and nothing per viewer. A viewer comes with the number of the GOP
-/// it wants next; one that comes too late for it is given the newest instead.
+/// One live stream: keeps the newest GOPs, the meshes and the planes in force as far as either take no more
+/// memory than these, and nothing per viewer. A viewer comes with the number of the GOP it wants next; one
+/// that comes too late for it is given the newest instead.
 class LiveStream {
  public:
   /// GOPs kept for viewers that are a little late, and the bytes they may take together; the newest is kept
@@ -72,12 +73,14 @@ class LiveStream {
   LiveStatus status() const;
 
  private:
-  struct LiveMesh {
+  struct NamedChunk {
     std::uint32_t name = 0;
     SharedBytes chunk;
   };
+  /// Those that GOPs to come may name, the latest last.
+  using ChunksInForce = std::deque<NamedChunk>;
 
-  void add_mesh(std::uint32_t name, SharedBytes chunk);
+  void add_named(ChunksInForce& in_force, std::size_t most, std::uint32_t name, SharedBytes chunk) const;
   void add_gop(StreamPart part);
   void keep_newest();
 
@@ -87,8 +90,9 @@ class LiveStream {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Start start_;
-  std::deque<LiveMesh> meshes_;  ///< those that GOPs to come may belong to, the latest last
-  std::deque<LiveGop> newest_;   ///< oldest first, numbers without a gap
+  ChunksInForce meshes_;
+  ChunksInForce plans_;
+  std::deque<LiveGop> newest_;  ///< oldest first, numbers without a gap
   bool ended_ = false;
   std::uint64_t viewers_ = 0;
   std::uint64_t frames_ = 0;
@@ -151,7 +155,7 @@ class LiveHub {
   bool ending_ = false;
 };
 
-/// What one viewer has been given so far. Holds one GOP at a time and an index of 24 bytes per GOP.
+/// What one viewer has been given so far. Holds one GOP at a time and an index of 48 bytes per GOP.
 class LiveViewer {
  public:
   /// After so many GOPs the viewer's stream is ended properly, so that its index does not grow forever; it
@@ -174,7 +178,8 @@ class LiveViewer {
   LiveStream::Start start_;
   const ByteSink* sink_ = nullptr;  ///< of the step under way
   StreamAssembler assembler_;
-  SharedBytes mesh_;
+  SharedBytes mesh_;                 ///< of the GOP written last
+  std::vector<SharedBytes> planes_;  ///< of that GOP
   std::optional<std::uint64_t> wanted_;
 };
 

@@ -10,7 +10,9 @@ namespace tvg::cli {
 /// One decoder of the file, which goes from GOP to GOP.
 class DecodeAhead::Worker {
  public:
-  explicit Worker(const std::string& path) : reader_(path) {}
+  Worker(const std::string& path, std::uint32_t components) : reader_(path) {
+    reader_.decoder().use_components(components);
+  }
 
   DecodedGop decode(const StreamMap::Place& place, std::uint64_t mesh_offset) {
     DecodedGop gop{.first_frame = place.first_frame, .mesh_offset = mesh_offset, .mesh = {}, .frames = {}};
@@ -75,7 +77,8 @@ class DecodeAhead::Worker {
   std::uint64_t mesh_offset_ = 0;
 };
 
-DecodeAhead::DecodeAhead(std::string path, StreamMap map, const FrameRange& frames, unsigned threads)
+DecodeAhead::DecodeAhead(std::string path, StreamMap map, const FrameRange& frames, unsigned threads,
+                         std::uint32_t components)
     : path_(std::move(path)), map_(std::move(map)), last_frame_(frames.last) {
   const auto holds_later_frames = [&](const StreamMap::Place& place) {
     return place.end_frame() > frames.first;
@@ -83,7 +86,7 @@ DecodeAhead::DecodeAhead(std::string path, StreamMap map, const FrameRange& fram
   const auto places = map_.places();
   next_place_ = static_cast<std::size_t>(std::find_if(places.begin(), places.end(), holds_later_frames) -
                                          places.begin());
-  for (unsigned i = 0; i < threads; ++i) idle_.push_back(std::make_unique<Worker>(path_));
+  for (unsigned i = 0; i < threads; ++i) idle_.push_back(std::make_unique<Worker>(path_, components));
   for (unsigned i = 0; i < threads; ++i) start_next();
 }
 

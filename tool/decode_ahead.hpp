@@ -27,8 +27,10 @@ struct DecodedGop {
 /// At most as many GOPs as there are threads are held beside the one given out last.
 class DecodeAhead {
  public:
-  /// The GOPs that hold `frames`, which the index in `map` has. Reads `path` in `threads` places at once.
-  DecodeAhead(std::string path, StreamMap map, const FrameRange& frames, unsigned threads);
+  /// The GOPs that hold `frames`, which the index in `map` has. Reads `path` in `threads` places at once, and
+  /// uses so many components (Decoder::use_components()).
+  DecodeAhead(std::string path, StreamMap map, const FrameRange& frames, unsigned threads,
+              std::uint32_t components = kMaxComponents);
   ~DecodeAhead();
 
   /// The next GOP; nothing behind the last. Throws ToolError where the file cannot be read.

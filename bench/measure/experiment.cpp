@@ -53,9 +53,9 @@ std::array<double, kFigures> Curve::at(double bytes) const {
 }
 
 Experiment prepare(std::string name, Sequence sequence, std::optional<JointTracks> joints,
-                   std::uint32_t gop_frames, int coarser_bits) {
-  Experiment experiment{std::move(name), std::move(sequence), std::move(joints), 0, {},
-                        gop_frames,      coarser_bits};
+                   std::uint32_t gop_frames, int coarser_bits, Mode mode) {
+  Experiment experiment{
+      std::move(name), std::move(sequence), std::move(joints), 0, {}, gop_frames, coarser_bits, mode};
   // An exact copy, compared for the sake of the box.
   experiment.extent = compare(experiment.sequence, experiment.sequence.frames).extent;
   experiment.regions = find_regions(experiment.sequence, gop_frames);
@@ -64,6 +64,8 @@ Experiment prepare(std::string name, Sequence sequence, std::optional<JointTrack
 
 Point run(const Experiment& experiment, double bits, const std::optional<Importance>& marks) {
   EncodeOptions options;
+  options.mode = experiment.mode;
+  options.period_frames = experiment.gop_frames;
   options.step = experiment.extent / std::exp2(bits);
   options.fine_bits = kMostBits;
   options.coarse_bits = marks ? kMostBits - experiment.coarser_bits : kMostBits;

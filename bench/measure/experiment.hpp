@@ -41,11 +41,12 @@ struct Experiment {
   Regions regions;
   std::uint32_t gop_frames = 50;
   int coarser_bits = 2;  ///< of hybrid encodings: B2 - B1
+  Mode mode = Mode::kElp;
 };
 
 /// Completes an experiment with extent and regions.
 Experiment prepare(std::string name, Sequence sequence, std::optional<JointTracks> joints,
-                   std::uint32_t gop_frames, int coarser_bits);
+                   std::uint32_t gop_frames, int coarser_bits, Mode mode);
 
 /// Encodes and decodes with these fine bits, which need not be whole; without marks, all vertices alike.
 Point run(const Experiment& experiment, double bits, const std::optional<Importance>& marks);

@@ -33,6 +33,9 @@ struct Settings {
   double alpha = 0.5;
   std::uint32_t smoothing = 0;
   bool extras = true;
+  bool basis = false;
+
+  Mode mode() const { return basis ? Mode::kBasis : Mode::kElp; }
 };
 
 struct Marks {
@@ -193,10 +196,10 @@ Experiment load_experiment(const Settings& settings, const std::string& name) {
   if (const corpus::CorpusEntry* entry = corpus::find_corpus_entry(name)) {
     corpus::CorpusSequence made = entry->make(*corpus::named_size("demo"));
     return prepare(name, std::move(made.sequence), std::move(made.joints), settings.gop_frames,
-                   settings.coarser_bits);
+                   settings.coarser_bits, settings.mode());
   }
   return prepare(name, load(settings.data, name).sequence, std::nullopt, settings.gop_frames,
-                 settings.coarser_bits);
+                 settings.coarser_bits, settings.mode());
 }
 
 /// How long the measure takes beside all of encoding.
@@ -326,6 +329,7 @@ int main(int argc, char** argv) {
       ->take_all();
   app.add_option("--alpha", settings.alpha, "alpha of these")->check(CLI::Range(0.0, 1.0));
   app.add_option("--smooth", settings.smoothing, "how often the cost of these is averaged over neighbours");
+  app.add_flag("--basis", settings.basis, "encode in mode basis, periods as long as a GOP");
   app.add_flag("!--only-marks", settings.extras, "neither speed nor Table 1");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -9,6 +9,9 @@ from tvg_writer import RangeEncoder, Stream, chunk, varint
 FRAMES = 6
 BOUNDS = {"vertices": 8, "faces": 4, "frames_per_gop": 3, "packet_bytes": 300, "meshes": 2, "mesh_bytes": 100}
 BOUNDS["decoder_memory"] = writer.memory(**BOUNDS)
+# The same for streams with planes.
+PLANES_BOUNDS = BOUNDS | {"plan_bytes": 20, "components": 3, "plans": 2}
+PLANES_BOUNDS["decoder_memory"] = writer.memory(**PLANES_BOUNDS)
 
 def written(use, *values):
     """The range-coder stream of what use(coder) reads while the coder says these values, valid or not."""
@@ -87,6 +90,7 @@ PARTS = {"HEAD": put(b"HEAD", writer.head(**BOUNDS)), "META": put(b"META", META)
          "GOP0": put_gop(gop(0)), "GOP1": put_gop(gop(1)), "GOP2": put_gop(gop(2)), "INDX": put_indx(),
          "TAIL": Stream.add_tail}
 ORDER = tuple(PARTS)
+PLANES_HEAD = {"HEAD": put(b"HEAD", writer.head(**PLANES_BOUNDS))}
 
 def stream(order=ORDER, before=None, end=None, **parts):
     """The stream of these parts, some of them others than PARTS, with something put before one."""

@@ -2,8 +2,9 @@
 import struct
 
 import tvg_writer as writer
-from negative_base import (BOUNDS, CHUNKS, CONNECTIVITY, FRAMES, MESH_ID, META, OTHER_ID, OTHER_MESH, PLAN, extra,
-                           flipped, gop, of_broken_meshes, put, put_bytes, put_indx, put_named, stream, without)
+from negative_base import (BOUNDS, CHUNKS, CONNECTIVITY, FRAMES, MESH_ID, META, OTHER_ID, OTHER_MESH, PLAN,
+                           PLANES_BOUNDS, PLANES_HEAD, extra, flipped, gop, of_broken_meshes, put, put_bytes, put_indx,
+                           put_named, stream, without)
 from tvg_writer import chunk, chunk_header, sized, varint
 
 def signature():
@@ -27,7 +28,8 @@ def chunks():
         for fault, part, error, section, frames in (
                 ("flag", wrong, "malformed", "3.2", left.get(name, FRAMES)),
                 ("checksum", broken, "checksum-mismatch", "3.3", FRAMES if name == "gop" else left.get(name, FRAMES))):
-            changed = stream(**{places[name]: part}) if name in places else stream(before=("GOP1", part))
+            planes = PLANES_HEAD if name == "plan" else {}
+            changed = stream(**{places[name]: part}) if name in places else stream(before=("GOP1", part), **planes)
             yield f"{fault}_of_{name}", error, section, frames, changed
     yield ("checksum_of_unknown", "checksum-mismatch", "3.3", FRAMES,
            stream(before=("GOP1", flipped(b"?", b"xtra", 1))))
@@ -38,8 +40,8 @@ def order():
         if name != "head":
             yield f"start_{name}", "malformed", "3.4", 0, stream(without("HEAD"), before=("META", extra(name)))
     yield "start_end", "truncated", "3.4", 0, stream(())
-    for name in ("head", "plan"):
-        yield f"open_{name}", "malformed", "3.4", FRAMES, stream(before=("META", extra(name)))
+    for name, parts in (("head", {}), ("plan", PLANES_HEAD)):
+        yield f"open_{name}", "malformed", "3.4", FRAMES, stream(before=("META", extra(name)), **parts)
     early = ("HEAD", "META", "GOP0", "MESH", "GOP1", "GOP2", "INDX", "TAIL")
     early_gop = put(b"GOP ", gop(0))
     yield "open_gop", "malformed", "3.4", FRAMES - 2, stream(early, GOP0=early_gop)
@@ -79,7 +81,12 @@ def head():
     yield "decoder_memory_above_63_bits", "malformed", "4.1", 0, changed(decoder_memory=2 ** 63)
     yield "meshes_none", "malformed", "4.1", 0, changed(meshes=0)
     yield "meshes_too_many", "malformed", "4.1", 0, changed(**(large | {"meshes": 65537}))
-    yield "head_unknown_odd_key", "unsupported version", "4.1", 0, changed(others={15: 1})
+    yield "head_unknown_odd_key", "unsupported version", "4.1", 0, changed(others={21: 1})
+    for name, bound, value in (("plan_bytes_above_32_bits", "plan_bytes", 2 ** 32), ("plans_none", "plans", 0),
+                               ("components_too_many", "components", 65536), ("plans_too_many", "plans", 257)):
+        yield name, "malformed", "4.1", 0, changed(**(PLANES_BOUNDS | large | {bound: value}))
+    low = PLANES_BOUNDS["decoder_memory"] - 1
+    yield "decoder_memory_low_for_planes", "malformed", "4.1", 0, changed(**(PLANES_BOUNDS | {"decoder_memory": low}))
     payload = writer.head(**BOUNDS)
     for name, section, tail in (("descending_key", "3.5", b"\0\0"), ("repeated_key", "3.5", b"\x0d\x64"),
                                 ("key_without_value", "4.1", b"\x10"), ("long_varint", "2.2", b"\x10\x81\0"),
@@ -174,7 +181,11 @@ def data_and_plan():
     yield "data_cut", "malformed", "4.8", FRAMES, stream(before=("GOP1", put(b"DATA", sized(b"n") + b"\0")))
     for name, payload in {"mesh_not_there": writer.plan(OTHER_ID, 0, 9), "mode_elp": writer.plan(MESH_ID, 0, 0),
                           "cut": PLAN[:4]}.items():
-        yield f"plan_{name}", "malformed", "4.9", FRAMES, stream(before=("GOP1", put(b"PLAN", payload)))
+        plan = put_named(b"PLAN", payload)
+        yield f"plan_{name}", "malformed", "4.9", FRAMES, stream(before=("GOP1", plan), **PLANES_HEAD)
+    long = put_named(b"PLAN", writer.plan(MESH_ID, 0, 9, bytes(15)))
+    yield "plan_bytes_exceeded", "limit-exceeded", "4.9", FRAMES, stream(before=("GOP1", long), **PLANES_HEAD)
+    yield "plan_without_bound", "limit-exceeded", "4.9", FRAMES, stream(before=("GOP1", put_named(b"PLAN", PLAN)))
 
 def cases():
     for group in (signature, chunks, order, head, meta, mesh, indx, tail, data_and_plan):

@@ -3,8 +3,9 @@ import struct
 
 import tvg_reference as reference
 import tvg_writer as writer
-from negative_base import (BOUNDS, CONNECTIVITY, ELP_FIELDS, FRAMES, GATES, MESH_ID, OTHER_ID, PLAN, at_meeting,
-                           choose, connectivity, gop, of_broken_meshes, put, put_gop, put_named, recoded, stream,
+from negative_base import (BOUNDS, CONNECTIVITY, ELP_FIELDS, FRAMES, GATES, MESH, MESH_ID, OTHER_ID, OTHER_MESH, PLAN,
+                           PLANES_HEAD, at_meeting, choose, connectivity, gop, of_broken_meshes, put, put_gop,
+                           put_named, recoded, stream,
                            written)
 from tvg_reference import TIME
 from tvg_writer import varint
@@ -29,7 +30,9 @@ def packets():
     yield case("frame_behind_digest", "malformed", "4.5", 0, gop(edit=lambda packets: packets + [space]))
     for kind in (2, 31, 64, 127):
         yield case(f"kind_{kind}", "unsupported", "4.5", 1, gop(edit=inserted(1, (kind, b"?"))))
-    for kind in (36, 63):
+    yield "gop_kind_36", "malformed", "4.5.2", FRAMES - 2, stream(GOP1=put_gop(gop(edit=lambda packets: replaced(
+        1, (36, packets[1][1]))(packets))))
+    for kind in (37, 63):
         yield case(f"kind_{kind}", "unsupported", "4.5", 1, gop(edit=lambda packets, kind=kind: replaced(
             1, (kind, packets[1][1]))(packets)))
     yield case("kind_2_behind_frames", "unsupported", "4.5", 0, gop(edit=inserted(2, (2, b"?"))))
@@ -103,12 +106,12 @@ def headers():
                HEAD=put(b"HEAD", writer.head(**wide_packets())))
     yield case("plane_not_there", "malformed", "4.5.1", {"planes": (1,), "mode": 9})
     named = {"planes": (writer.checksum(PLAN),)}
-    yield case("planes_in_elp", "malformed", "4.5.1", named, before=("GOP1", put_named(b"PLAN", PLAN)))
-    yield case("mode_basis", "unsupported", "4.5.1", {"mode": 1})
+    yield case("planes_in_elp", "malformed", "4.5.1", named, before=("GOP1", put_named(b"PLAN", PLAN)), **PLANES_HEAD)
+    yield from plans()
     yield case("mode_unknown", "unsupported", "4.5.1", {"mode": 2 ** 40, "fields": b""})
     yield ("gop_mode_with_planes", "unsupported", "4.5.1", FRAMES - 2, stream(
         before=("GOP1", put_named(b"PLAN", PLAN)), GOP1=lambda stream: stream.add_gop(
-            gop(header=named | {"mode": 9, "fields": b"?"}), MESH_ID, 2, named["planes"])))
+            gop(header=named | {"mode": 9, "fields": b"?"}), MESH_ID, 2, named["planes"]), **PLANES_HEAD))
     yield case("header_cut_in_prefix", "malformed", "4.5.1", {"mode": 0, "fields": b""})
     nan, infinity = float("nan"), float("inf")
     cases = {
@@ -128,6 +131,27 @@ def headers():
     for name, flags in {"flags_none": b"", "flags_left_over": ELP_FIELDS["flags"] + b"\0",
                         "flags_cut": b"\xff"}.items():
         yield case(name, "malformed", "6.1", fields={"flags": flags})
+
+def plans():
+    """GOPs that name planes which are not in force any more, or are no planes of theirs."""
+    def case(name, error, section, payload, *chunks, mode=9):
+        identity = writer.checksum(payload)
+
+        def before(stream):
+            for chunk in chunks:
+                put_named(*chunk)(stream)
+
+        header = {"planes": (identity,), "mode": mode, "fields": b"?"}
+        return f"gop_plan_{name}", error, section, FRAMES - 2, stream(
+            before=("GOP1", before), GOP1=lambda stream: stream.add_gop(gop(header=header), MESH_ID, 2, (identity,)),
+            **PLANES_HEAD)
+
+    later = [(b"PLAN", writer.plan(MESH_ID, 0, 9, bytes([k]))) for k in range(2)]
+    yield case("gone", "malformed", "4.5.1", PLAN, (b"PLAN", PLAN), *later)
+    yield case("before_its_mesh", "malformed", "4.5.1", PLAN, (b"PLAN", PLAN), (b"MESH", MESH))
+    yield case("of_another_mode", "malformed", "4.5.1", PLAN, (b"PLAN", PLAN), mode=1)
+    added = writer.plan(MESH_ID, 1, 1)
+    yield case("that_adds", "unsupported", "4.9", added, (b"PLAN", added), mode=1)
 
 def wide_packets():
     bounds = BOUNDS | {"packet_bytes": 2000}

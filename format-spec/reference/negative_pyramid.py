@@ -28,7 +28,7 @@ def mesh(section):
 
 MESH = mesh(shape())
 MESH_ID = writer.checksum(MESH)
-TURNS = reference.pyramid(FACES, *reference.reference_shape(shape(), FACES, 4))
+SHAPE, TURNS = reference.shape_and_turns(shape(), FACES, 4)
 
 def shapes():
     nan, infinity = float("nan"), float("inf")
@@ -56,9 +56,13 @@ def along(number=1, header=None, **changed):
 
 def of_shape(payload):
     """The stream whose mesh has a shape, with another GOP1."""
-    payloads = {"GOP0": along(0), "GOP1": payload, "GOP2": along(2, predictors=(SPACE, PYRAMID))}
-    return stream(HEAD=HEAD, MESH=put_named(b"MESH", MESH),
-                  **{name: put_gop(payload, MESH_ID) for name, payload in payloads.items()})
+    return stream(**(of_shape_parts() | {"GOP1": put_gop(payload, MESH_ID)}))
+
+def of_shape_parts():
+    """The parts of a stream whose mesh has a shape, without GOP1."""
+    payloads = {"GOP0": along(0), "GOP2": along(2, predictors=(SPACE, PYRAMID))}
+    return {"HEAD": HEAD, "MESH": put_named(b"MESH", MESH)} | {
+        name: put_gop(payload, MESH_ID) for name, payload in payloads.items()}
 
 def predictors():
     def case(name, error, section, payload, make=of_shape):

@@ -10,8 +10,10 @@ they are made from has 6 frames. The streams of the table of §3.4 are named aft
 import os
 import sys
 
+import negative_basis
 import negative_chunks
 import negative_gops
+import negative_lossless
 import negative_pyramid
 
 def cases():
@@ -19,6 +21,8 @@ def cases():
     yield from negative_chunks.cases()
     yield from negative_gops.cases()
     yield from negative_pyramid.cases()
+    yield from negative_lossless.cases()
+    yield from negative_basis.cases()
 
 def main(arguments):
     if len(arguments) != 1:

@@ -3,14 +3,17 @@
 
     python3 random_streams.py FOLDER SEED...
 
-writes the streams of the seeds to FOLDER/random_SEED.tvg. The same seed gives the same bytes everywhere.
+writes the streams of the seeds to FOLDER/random_SEED.tvg. The same seed gives the same bytes everywhere. Seeds from
+1000 on have GOPs in mode lossless, too; those from 2000 on have plans and GOPs in mode basis.
 """
 import os
 import sys
 
+import tvg_basis
+import tvg_basis_writer as basis_writer
 import tvg_reference as reference
 import tvg_writer as writer
-from tvg_reference import ELP, PYRAMID, SPACE, TIME, clamp
+from tvg_reference import ELP, PYRAMID, ROWS, SPACE, TIME, clamp
 from tvg_writer import Random, RandomConnectivity, Stream
 
 KINDS_UNKNOWN = (b"xtra", b"    ", b"~~~~", b"Gop ", b"HEA2")
@@ -24,6 +27,42 @@ def chooser(random):
         if random.chance(wild):
             return random.pick((0, cells - 1, random.below(cells)))
         return clamp(prediction + random.between(-spread, spread) - axis, 0, cells - 1)
+
+    return choose
+
+def number_chooser(random):
+    """The same for numbers on a line: near what was predicted, but for wild ones, and zeros of both signs."""
+    spread, wild = random.pick((0, 2, 300, 2 ** 25)), random.pick((0, 5, 100))
+
+    def choose(_, axis, rounded, line):
+        if random.chance(wild):
+            return random.pick((0, -1, line.most, -1 - line.most, random.between(-1 - line.most, line.most)))
+        return clamp(rounded + random.between(-spread, spread) - axis, -1 - line.most, line.most)
+
+    return choose
+
+def coefficient_chooser(random):
+    """The same for coefficients, of which most are as predicted where the spread is 0."""
+    spread, wild = random.pick((0, 1, 3, 40, 70000)), random.pick((0, 2, 50))
+
+    def choose(_, j, rounded, most):
+        if random.chance(wild):
+            return random.pick((0, most, -most, random.between(-most, most)))
+        return clamp(rounded + random.between(-spread, spread) - (j if spread > 1 else 0), -most, most)
+
+    return choose
+
+def row_chooser(random, plan):
+    """The same for rows, so that sums are below 2^52."""
+    spread, wild = random.pick((0, 1, 20, 5000)), random.pick((0, 2, 30))
+    largest = [1] + [max(map(abs, q)) for q in plan.q]
+    share = (tvg_basis.MOST_SUM - 1) // len(largest)
+    most = [min(share // (max(m, 1) * tvg_basis.factor(z)), 2 ** 26) for m, z in zip(largest, plan.scales)]
+
+    def choose(a, axis, rounded):
+        if random.chance(wild):
+            return random.pick((0, most[a], -most[a], random.between(-most[a], most[a])))
+        return clamp(rounded + random.between(-spread, spread) - axis, -most[a], most[a])
 
     return choose
 
@@ -51,31 +90,58 @@ class Mesh:
             sections.append((3, writer.near_order(random.shuffled(range(V)), self.gates, random)))
         elif order == 3:
             sections.append((3, writer.uniform_order(random.shuffled(range(V)))))
-        self.turns = None
+        self.shape = self.turns = None
         if random.chance(60):
-            shape = self.shape(random, faces, V)
-            sections.append((5, shape))
-            self.turns = reference.pyramid(faces, *reference.reference_shape(shape, faces, V))
+            section = self.shape_section(random, faces, V)
+            sections.append((5, section))
+            self.shape, self.turns = reference.shape_and_turns(section, faces, V)
         sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 2, 4, 2 ** 40) if random.chance(15)]
         self.V, self.F = V, F
         self.payload = writer.mesh(V, F, sorted(sections))
         self.id = writer.checksum(self.payload)
 
     @staticmethod
-    def shape(random, faces, V):
+    def shape_section(random, faces, V):
         """The section of a reference shape."""
         coded = writer.ShapeWriter(faces, V, random.pick((1, 3, 8, 16, 24)), chooser(random))
         coded.decode()
         origin = [random.pick((0.0, -1.0, 1e300)) for _ in range(3)]
         return writer.reference_shape(coded.bits, random.between(4, 16), origin, random.pick(STEPS), coded.coder.data)
 
+class Basis:
+    """A random plan in mode basis of a mesh: payload, id, and what frames need to know of it."""
+    def __init__(self, random, mesh):
+        K, fine_bits = random.pick((0, 1, 3, 4, 5, 9)), random.pick((1, 8, 12, 24))
+        coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
+        fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
+        shift = [0 if is_fine else fine_bits - coarse_bits for is_fine in fine]
+        coded = basis_writer.PlanWriter(mesh.turns, shift, K, coefficient_chooser(random), random.chance(20))
+        largest = random.pick((0, 8, 40, 163))
+        self.mesh, self.K, self.q = mesh, K, coded.q
+        self.scales = [random.between(0, largest) for _ in range(K + 1)]
+        origin = [random.pick((0.0, -1.0, 1e-3, 123.456, -1e30)) for _ in range(3)]
+        flags = writer.flags(fine, mesh.gates) if coarse_bits < fine_bits else b""
+        fields = basis_writer.basis_fields(K, fine_bits, coarse_bits, random.pick((0, 5, 20, 48)), origin,
+                                           random.pick(STEPS), self.scales, flags, coded.groups, coded.digest)
+        self.payload = writer.plan(mesh.id, 0, reference.MODE_BASIS, fields)
+        self.id = writer.checksum(self.payload)
+
+class UnknownPlan:
+    """Planes of a mode that nobody knows."""
+    def __init__(self, random, mesh):
+        self.mesh = mesh
+        self.payload = writer.plan(mesh.id, random.below(3), random.between(3, 200), random.some_bytes(4))
+
 class RandomStream:
     """One stream. Chunks are planned first, since HEAD bounds them."""
     def __init__(self, seed):
-        self.random = Random(seed)
+        self.random, self.lossless = Random(seed), seed >= 1000
         self.meshes = [Mesh(self.random) for _ in range(self.random.between(1, 3))]
         self.window = self.random.between(1, 3)
         self.label = self.random.pick((0, 0, 17, 2 ** 62))
+        self.bases = [Basis(self.random, mesh) for mesh in self.meshes if mesh.turns and seed >= 2000
+                      for _ in range(self.random.between(1, 3))]
+        self.plan_window = self.random.between(1, 3) if self.bases else 1
 
     def write(self):
         random, body = self.random, self.body()
@@ -88,6 +154,13 @@ class RandomStream:
             "meshes": self.window,
             "mesh_bytes": max(len(mesh.payload) for mesh in self.meshes) + random.below(3),
         }
+        plans = [payload for kind, payload, _ in body if kind == b"PLAN"]
+        if plans:
+            bounds |= {"plan_bytes": max(map(len, plans)) + random.below(3), "components": random.below(100),
+                       "plans": random.between(1, 256)}
+        if self.bases:
+            bounds |= {"components": max(basis.K for basis in self.bases) + random.below(3), "plans": self.plan_window,
+                       "frames_per_gop": 70 + random.below(3)}
         shapes = any(mesh.turns for mesh in self.meshes)
         bounds["decoder_memory"] = writer.memory(**bounds, shapes=shapes) + random.pick((0, 0, 1, 10 ** 6))
         others = {key: random.below(2 ** 63) for key in (0, 2, 8, 14, 1000) if random.chance(20)}
@@ -118,7 +191,7 @@ class RandomStream:
 
     def body(self):
         """The chunks between HEAD and INDX: kind, payload, what a GOP's entry names."""
-        random, chunks, in_force = self.random, [], []
+        random, chunks, in_force, plans, gone = self.random, [], [], [], set()  # gone: plans before their mesh
 
         def asides():
             while random.chance(30):
@@ -130,15 +203,31 @@ class RandomStream:
             in_force.append(mesh)
             del in_force[:-self.window]
             chunks.append((b"MESH", mesh.payload, None))
+            gone.update(plan for plan in plans if plan.mesh is mesh)
 
-        for number in range(random.between(3, 6)):
+        def add_plan(plan):
+            if plan in plans:
+                plans.remove(plan)
+            plans.append(plan)
+            gone.discard(plan)
+            del plans[:-self.plan_window]
+            chunks.append((b"PLAN", plan.payload, None))
+
+        for number in range(random.between(3, 6) + 4 * bool(self.bases)):
             asides()
             if number == 0 or random.chance(60):
                 show(random.pick(self.meshes))
             asides()
             if random.chance(15):
-                chunks.append((b"PLAN", writer.plan(random.pick(in_force).id, random.below(3), random.between(1, 200),
-                                                    random.some_bytes(4)), None))
+                add_plan(UnknownPlan(random, random.pick(in_force)))
+            possible = [basis for basis in self.bases if basis.mesh in in_force]
+            if possible and random.chance(60):
+                add_plan(random.pick(possible))
+            usable = [plan for plan in plans if plan in self.bases and plan not in gone and plan.mesh in in_force]
+            if usable and random.chance(70):
+                basis = random.pick(usable)
+                payload, frame_count = self.basis_gop(basis)
+                chunks.append((b"GOP ", payload, (basis.mesh.id, frame_count, (basis.id,))))
             if random.chance(85):
                 mesh = random.pick(in_force)
                 payload, frame_count = self.gop(mesh)
@@ -169,32 +258,72 @@ class RandomStream:
 
     def gop(self, mesh):
         """A GOP of a mesh: payload and frame_count."""
-        random = self.random
-        fine_bits = random.pick((1, 4, 8, 12, 24))
-        coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
-        fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
-        channels = [1] + [channel for channel in (2, 6, 10 ** 6) if random.chance(15)]
-        turns = mesh.turns if random.chance(80) else None
-        first = (SPACE, PYRAMID, PYRAMID) if turns else (SPACE,)
-        frames, packets = writer.FrameWriter(mesh.gates, fine, fine_bits, coarse_bits, chooser(random), turns), []
-        frame_count = random.between(1, 4)
+        is_lossless = self.lossless and mesh.turns and self.random.chance(30)
+        return self.lossless_gop(mesh) if is_lossless else self.elp_gop(mesh)
+
+    def channels(self):
+        return [1] + [channel for channel in (2, 6, 10 ** 6) if self.random.chance(15)]
+
+    def framed(self, frames, frame_count, choose_predictor, channels):
+        """The packets of frames, and of the digest."""
+        random, packets = self.random, []
         for number in range(frame_count):
             self.ancillary(packets)
-            predictor = random.pick(first if number == 0 else (*first, TIME, ELP, ELP))
+            predictor = choose_predictor(number)
             pieces = [frames.write(predictor)] + [random.some_bytes(random.below(4)) for _ in channels[1:]]
             packets.append((32 + predictor, b"".join(map(writer.sized, pieces[:-1])) + pieces[-1]))
         self.ancillary(packets)
         digests = [(channel, frames.digest() if channel == 1 else random.below(2 ** 64)) for channel in channels]
         packets.append((1, writer.digest(digests)))
         self.ancillary(packets)
+        return packets
+
+    def finished(self, mesh, frame_count, packets, **header):
+        """The payload of a GOP of these packets, and frame_count."""
+        packet = writer.gop_header(mesh.id, self.label, frame_count, len(packets), **header)
+        if self.label < 2 ** 62:
+            self.label += frame_count + self.random.pick((0, 0, 0, 5))
+        return writer.gop([(0, packet)] + packets), frame_count
+
+    def lossless_gop(self, mesh):
+        random, channels, frame_count = self.random, self.channels(), self.random.between(1, 4)
+        kind = random.below(2)
+        amount = random.pick(((0, 0, 13, 23), (0, 100, 149, 252))[kind])
+        frames = writer.LosslessWriter(mesh.turns, mesh.shape, kind, amount, number_chooser(random))
+        packets = self.framed(frames, frame_count, lambda number: PYRAMID, channels)
+        return self.finished(mesh, frame_count, packets, mode=2,
+                             fields=writer.lossless_fields(kind, amount, channels))
+
+    def basis_gop(self, basis):
+        random, channels = self.random, self.channels()
+        alike = random.pick((0, 50, 100))
+
+        def choose_back(before):
+            return random.between(2, before - 1) if before > 2 and random.chance(alike) else 0
+
+        frames = basis_writer.BasisWriter(basis, row_chooser(random, basis), choose_back)
+        frame_count = 70 if random.chance(10) else random.between(1, 4)  # 70 are more than are remembered
+        packets = self.framed(frames, frame_count, lambda number: ROWS, channels)
+        return self.finished(basis.mesh, frame_count, packets, planes=(basis.id,), mode=reference.MODE_BASIS,
+                             fields=writer.channel_fields(channels))
+
+    def elp_gop(self, mesh):
+        random = self.random
+        fine_bits = random.pick((1, 4, 8, 12, 24))
+        coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
+        fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
+        channels = self.channels()
+        turns = mesh.turns if random.chance(80) else None
+        first = (SPACE, PYRAMID, PYRAMID) if turns else (SPACE,)
+        frames = writer.FrameWriter(mesh.gates, fine, fine_bits, coarse_bits, chooser(random), turns)
+        frame_count = random.between(1, 4)
+        others = (*first, TIME, ELP, ELP)
+        packets = self.framed(frames, frame_count, lambda number: random.pick(first if number == 0 else others), channels)
         origin = [random.pick((0.0, -1.0, 1e-3, 123.456, -1e30)) for _ in range(3)]
         flags = writer.flags(fine, mesh.gates) if coarse_bits < fine_bits else b""
         named = writer.predictors_of(packets) | (random.below(16) if turns else random.below(8))
         fields = writer.elp_fields(named, fine_bits, coarse_bits, origin, random.pick(STEPS), flags, channels)
-        header = writer.gop_header(mesh.id, self.label, frame_count, len(packets), fields=fields)
-        if self.label < 2 ** 62:
-            self.label += frame_count + random.pick((0, 0, 0, 5))
-        return writer.gop([(0, header)] + packets), frame_count
+        return self.finished(mesh, frame_count, packets, fields=fields)
 
     def ancillary(self, packets):
         while self.random.chance(20):

@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
-It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py). It does not recover from
-damage (§8.3): the first violation ends a stream. Python 3, standard library only.
+It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py, §7.8 in tvg_basis.py and
+tvg_rows.py, §7.9 in tvg_lossless.py). It does not recover from damage (§8.3): the first violation ends a stream.
+Python 3, standard library only.
 
     python3 tvg_reference.py FILE.tvg...
 
 prints for each stream what corpus/conformance/digests.txt has of it: its name; its bytes; its frames; the vertices and
 the faces of its meshes, summed; and the XXH64 of all lattice indices (i32), positions (binary32) and faces (u32) in
-output order. A mesh counts when a frame has other faces or another number of vertices than the frame before it.
+output order (of what stands for indices in other modes than elp). A mesh counts when a frame has other faces or another number of vertices than the frame before it.
 
     python3 tvg_reference.py --check FILE.tvg...
 
@@ -24,6 +25,8 @@ import sys
 from bisect import bisect_left
 from collections import deque
 
+from tvg_basis import Basis, BasisFrames  # 7.8
+from tvg_lossless import LosslessFrames, line_of  # 7.9
 from tvg_pyramid import pyramid  # 5.4
 
 class Invalid(Exception):
@@ -130,9 +133,12 @@ ORDER = {
     "indexed": (BAD, BAD, BAD, BAD, BAD, BAD, BAD, "ended", "indexed", VERSION, "truncated"),
     "ended": (BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, BAD, "complete"),
 }
-LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30}  # §8.1, by key of §4.1
+# §8.1, by key of §4.1
+LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30, 15: 2 ** 30, 17: 2 ** 14}
 MESH_ENTRY, PLAN_ENTRY, GOP_ENTRY = 1, 2, 3  # kinds of §4.6
 SPACE, TIME, ELP, PYRAMID = 0, 1, 2, 3  # predictors of §7.2 and §7.7
+ROWS = 4  # of frames in mode basis
+MODE_ELP, MODE_BASIS, MODE_LOSSLESS = 0, 1, 2
 
 def unknown_text(key):
     """3.5: what is even may be skipped."""
@@ -140,16 +146,22 @@ def unknown_text(key):
 
 class Mesh:
     """A mesh in force (4.3); number: that of its latest entry of the index among the meshes', from 1."""
-    def __init__(self, V, faces, gates, order, turns):
+    def __init__(self, V, faces, gates, order, turns, shape):
         self.V, self.gates, self.order, self.number = V, gates, order, 0
         self.turns = turns  # of the pyramid (5.4); None without a reference shape
+        self.shape = shape  # lattice indices, origin and step; None without one
         self.faces = [tuple(order[corner] for corner in face) for face in faces]  # in output order
+
+class Plan:
+    """One of the latest PLAN chunks (4.9), and whether it is in force; number: that of its latest entry of the index among the plans', from 1."""
+    def __init__(self, mesh, adds_to, mode, basis):
+        self.mesh, self.adds_to, self.mode, self.basis, self.number = mesh, adds_to, mode, basis, 0
 
 class Decoder:
     """Decodes one stream; the results are in its fields."""
     def __init__(self, data):
         self.data, self.metadata, self.named_data, self.frames = data, {}, {}, 0
-        self.meshes, self.plans = {}, {}  # in force, by id; the latest comes last (4.3, 4.9)
+        self.meshes, self.plans = {}, {}  # in force, or among the latest, by id; the latest comes last (4.3, 4.9)
         self.index = []  # what INDX should hold: (kind, offset of the chunk, fields)
         self.shown, self.shown_vertices, self.shown_faces = None, 0, 0  # the mesh of the last frame; sums
         self.face_bytes, self.index_bytes, self.position_bytes = bytearray(), bytearray(), bytearray()
@@ -217,20 +229,27 @@ class Decoder:
         while reader.at < len(payload):
             key, value = reader.varint(), reader.varint()
             require(key > last, "3.5", "keys do not ascend")
-            require(key in (1, 3, 5, 7, 9, 11, 13) or key % 2 == 0, "4.1", unknown_text(key), VERSION)
+            require(key <= 19 or key % 2 == 0, "4.1", unknown_text(key), VERSION)
             bounds[key] = value
             last = key
         for key in (1, 3, 5, 7, 9, 11, 13):
             require(key in bounds, "4.1", f"key {key} is missing")
             require(bounds[key] < (2 ** 63 if key == 9 else 2 ** 32), "4.1", f"value of key {key}")
         require(1 <= bounds[11] <= 65536, "4.1", "meshes")
+        bounds = {15: 0, 17: 0, 19: 1} | bounds
+        require(bounds[15] < 2 ** 32, "4.1", "plan_bytes")
+        require(bounds[17] <= 65535, "4.1", "components")
+        require(1 <= bounds[19] <= 256, "4.1", "plans")
         self.vertices, self.faces, self.frames_per_gop, self.packet_bytes = (bounds[key] for key in (1, 3, 5, 7))
         self.meshes_in_force, self.mesh_bytes = bounds[11], bounds[13]
+        self.plan_bytes, self.components, self.plans_in_force = bounds[15], bounds[17], bounds[19]
         # 8.2 Memory
         memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes + self.mesh_bytes
         memory += (self.meshes_in_force - 1) * (512 + 24 * self.vertices + 16 * self.faces)
-        require(bounds[9] >= memory, "4.1", "decoder_memory")
         shapes = (400 + 128 * self.meshes_in_force) * self.vertices + 96 * self.faces
+        planes = self.plans_in_force * (4096 + self.components * (64 + 4 * self.vertices) + 8 * self.vertices)
+        planes += self.plan_bytes + 128 * self.vertices + 1536 * self.components
+        require(bounds[9] >= memory + (shapes + planes if self.plan_bytes > 0 else 0), "4.1", "decoder_memory")
         self.room_for_shapes = bounds[9] >= memory + shapes
         for key, limit in LIMITS.items():
             require(bounds[key] <= limit, "8.1", f"key {key}: more than this decoder allows", "limit-exceeded")
@@ -254,6 +273,8 @@ class Decoder:
         require(len(payload) <= self.mesh_bytes, "4.3", "size of a mesh's payload", "limit-exceeded")
         mesh = self.meshes.pop(identity, None) or self.read_mesh(payload)
         self.meshes[identity] = mesh
+        for plan in self.plans.values():  # 4.9
+            plan.in_force = plan.in_force and plan.mesh != identity
         if len(self.meshes) > self.meshes_in_force:
             del self.meshes[next(iter(self.meshes))]
         self.index.append((MESH_ENTRY, offset, ()))
@@ -279,8 +300,10 @@ class Decoder:
                 "limit-exceeded")
         faces, gates = Connectivity(RangeDecoder(sections[1], "5.1"), V, F).decode()
         order = vertex_order(sections[3], gates) if 3 in sections else list(range(V))
-        turns = pyramid(faces, *reference_shape(sections[5], faces, V)) if 5 in sections else None
-        return Mesh(V, faces, gates, order, turns)
+        turns = shape = None
+        if 5 in sections:
+            shape, turns = shape_and_turns(sections[5], faces, V)
+        return Mesh(V, faces, gates, order, turns, shape)
 
     def entries(self, kind):
         """How many entries of a kind the index has so far."""
@@ -304,13 +327,10 @@ class Decoder:
         require(kind == 0, "4.5", "the first packet is no header")
         header = Header(content, self)
         mesh = self.meshes[header.mesh]
-        backs = [self.entries(PLAN_ENTRY) + 1 - self.plans[plane] for plane in header.planes]
+        backs = [self.entries(PLAN_ENTRY) + 1 - self.plans[plane].number for plane in header.planes]
         fields = (header.frame_count, self.entries(MESH_ENTRY) + 1 - mesh.number, len(backs), *backs)
         self.index.append((GOP_ENTRY, offset, fields))
-        header.elp(mesh)
-
-        turns = mesh.turns if header.predictors >> PYRAMID & 1 else None
-        frames = Frames(mesh.gates, header.fine, header.fine_bits, header.coarse_bits, turns)
+        frames = header.frames(mesh)
         hashed, digested, decoded = bytearray(), False, 0
         while number < header.packet_count:
             number += 1
@@ -324,14 +344,15 @@ class Decoder:
                 digested = True
                 continue
             require(kind != 0, "4.5", "a second header")
-            require(32 <= kind <= 35, "4.5", f"packets of kind {kind} are not known", "unsupported")
+            require(32 <= kind <= 32 + ROWS, "4.5", f"packets of kind {kind} are not known", "unsupported")
             require(decoded < header.frame_count, "4.5", "more frames than frame_count")
             require(header.predictors >> kind - 32 & 1, "4.5.2", "a predictor that the header does not name")
-            require(decoded > 0 or kind in (32, 35), "4.5.2", "nothing is there to predict the first frame from")
-            frames.frame(TwoEnded(header.positions(content), "7.5"), kind - 32)
+            require(decoded > 0 or kind - 32 in (SPACE, PYRAMID, ROWS), "4.5.2", "nothing is there to predict the first frame from")
+            ends = RangeDecoder if kind - 32 == ROWS else TwoEnded
+            frames.frame(ends(header.positions(content), "7.5"), kind - 32)
             decoded += 1
-            hashed += b"".join(struct.pack("<3i", *index) for index in frames.X)
-            self.output(mesh, frames, header)
+            hashed += b"".join(struct.pack("<3i", *values) for values in frames.hashed_values())
+            self.output(mesh, frames)
         require(digested, "4.5", "no digest")
         reader.end()
 
@@ -344,7 +365,7 @@ class Decoder:
             require(channel != 1 or expected == xxh64(values), "7.6", "wrong digest", "digest-mismatch")
         reader.end()
 
-    def output(self, mesh, frames, header):
+    def output(self, mesh, frames):
         """Give out one frame, in output order (4.3)."""
         if self.shown is None or (mesh.V, mesh.faces) != (self.shown.V, self.shown.faces):
             self.shown_vertices += mesh.V
@@ -352,10 +373,8 @@ class Decoder:
             self.face_bytes += b"".join(struct.pack("<3I", *face) for face in mesh.faces)
         indices, positions = [b""] * mesh.V, [b""] * mesh.V
         for v, place in enumerate(mesh.order):
-            index = [x >> frames.shift[v] for x in frames.X[v]]
-            indices[place] = struct.pack("<3i", *index)
-            edge = header.step * 2.0 ** frames.shift[v]
-            positions[place] = struct.pack("<3f", *(position(o, i, edge) for o, i in zip(header.origin, index)))
+            index, at = frames.given_out(v)
+            indices[place], positions[place] = struct.pack("<3i", *index), struct.pack("<3f", *at)
         self.index_bytes += b"".join(indices)
         self.position_bytes += b"".join(positions)
         self.frames += 1
@@ -400,14 +419,20 @@ class Decoder:
 
     def plan(self, payload, identity, offset):
         """4.9 PLAN."""
+        require(len(payload) <= self.plan_bytes, "4.9", "size of the payload of planes", "limit-exceeded")
         reader = Reader(payload, "4.9")
-        require(reader.unsigned(4) in self.meshes, "4.9", "the mesh is not in force")
-        reader.varint()  # adds_to
-        require(reader.varint() != 0, "4.9", "mode elp shares nothing")
+        mesh, adds_to, mode = reader.unsigned(4), reader.varint(), reader.varint()
+        require(mesh in self.meshes, "4.9", "the mesh is not in force")
+        require(mode != MODE_ELP, "4.9", "mode elp shares nothing")
         self.index.append((PLAN_ENTRY, offset, ()))
-        number = self.entries(PLAN_ENTRY)
-        self.plans[identity] = number
-        self.plans = {plane: latest for plane, latest in self.plans.items() if latest > number - 256}
+        plan = self.plans.pop(identity, None)
+        if plan is None:
+            known = (mode, adds_to) == (MODE_BASIS, 0)
+            basis = Basis(reader, self.meshes[mesh], self.components, sys.modules[__name__]) if known else None
+            plan = Plan(mesh, adds_to, mode, basis)
+        self.plans[identity], plan.number, plan.in_force = plan, self.entries(PLAN_ENTRY), True
+        if len(self.plans) > self.plans_in_force:
+            del self.plans[next(iter(self.plans))]
 
 def text(data, section):
     """Text as in 4.2."""
@@ -431,19 +456,55 @@ class Header:
         planes = reader.varint()
         require(planes <= 256, "4.5.1", "planes")
         self.planes = [reader.unsigned(4) for _ in range(planes)]
-        require(all(plane in decoder.plans for plane in self.planes), "4.5.1", "a plane is not in force")
+        named = [decoder.plans.get(plane) for plane in self.planes]
+        require(all(plan and plan.in_force for plan in named), "4.5.1", "a plane is not in force")
         self.mode = reader.varint()
+        require(self.mode in (MODE_ELP, MODE_BASIS, MODE_LOSSLESS), "4.5.1", f"mode {self.mode}", "unsupported")
+        for plan in named:
+            require((plan.mesh, plan.mode) == (self.mesh, self.mode), "4.5.1", "planes of another mesh or mode")
+            require(plan.adds_to == 0, "4.9", "adds_to", "unsupported")
+        self.bases = [plan.basis for plan in named]
 
-    def elp(self, mesh):
-        """The fields of mode elp."""
+    def frames(self, mesh):
+        """Reads the fields of the mode; what decodes the frames of the GOP."""
+        require(len(self.planes) == (self.mode == MODE_BASIS), "4.5.1", "number of planes")
+        self.read_channels()
+        if self.mode == MODE_BASIS:
+            return self.rows()
+        return self.elp(mesh) if self.mode == 0 else self.lossless(mesh)
+
+    def read_channels(self):
         reader = self.reader
-        require(self.mode == 0, "4.5.1", f"mode {self.mode}", "unsupported")
-        require(not self.planes, "4.5.1", "mode elp has no planes")
         count = reader.varint()
         require(1 <= count <= 256, "4.5.1", "number of channels")
         self.channels = [reader.varint() for _ in range(count)]
         require(all(a < b for a, b in zip(self.channels, self.channels[1:])), "3.5", "channels do not ascend")
         require(self.channels[0] == 1, "4.5.1", "the first channel is not positions")
+
+    def refuse_unknown_channels(self):
+        for channel in self.channels[1:]:
+            require(channel % 2 == 0, "4.5.1", unknown_text(channel), "unsupported")
+
+    def rows(self):
+        """The fields of mode basis."""
+        self.predictors = 1 << ROWS
+        self.reader.end()
+        self.refuse_unknown_channels()
+        return BasisFrames(self.bases[0], sys.modules[__name__])
+
+    def lossless(self, mesh):
+        """The fields of mode lossless."""
+        self.predictors = 1 << PYRAMID
+        kind, amount = self.reader.unsigned(1), self.reader.unsigned(1)
+        require(kind < 2 and amount <= (23, 252)[kind], "4.5.1", "kind and amount")
+        self.reader.end()
+        require(mesh.turns, "4.5.1", "the mesh has no reference shape")
+        self.refuse_unknown_channels()
+        return LosslessFrames(mesh.turns, mesh.shape, line_of(kind, amount), require, Symbol, Bit)
+
+    def elp(self, mesh):
+        """The fields of mode elp."""
+        reader = self.reader
         self.predictors = reader.unsigned(1)
         require(self.predictors < 16, "4.5.1", f"predictors {self.predictors}", "unsupported")
         require(self.predictors & (1 << SPACE | 1 << PYRAMID), "4.5.1", "nothing can predict the first frame")
@@ -454,9 +515,12 @@ class Header:
         self.origin, self.step = [reader.f64() for _ in range(3)], reader.f64()
         require(all(map(math.isfinite, self.origin)), "4.5.1", "origin")
         require(math.isfinite(self.step) and self.step > 0, "4.5.1", "step")
-        for channel in self.channels[1:]:
-            require(channel % 2 == 0, "4.5.1", unknown_text(channel), "unsupported")
-        self.fine = flags(reader.rest(), mesh.gates, self.fine_bits == self.coarse_bits)
+        self.refuse_unknown_channels()
+        fine = flags(reader.rest(), mesh.gates, self.fine_bits == self.coarse_bits)
+        turns = mesh.turns if self.predictors >> PYRAMID & 1 else None
+        frames = Frames(mesh.gates, fine, self.fine_bits, self.coarse_bits, turns)
+        frames.origin, frames.step = self.origin, self.step
+        return frames
 
     def positions(self, content):
         """4.5.2 A frame's packet: the piece of channel 1, which is the first."""
@@ -671,7 +735,7 @@ def uniform_order(coder, gates, unused):
 
 # 5.3 Reference shape
 def reference_shape(data, faces, V):
-    """Returns the lattice indices of the vertices, and how many neighbours one has in the pyramid."""
+    """Returns where the shape has the vertices, and how many neighbours one has in the pyramid."""
     reader = Reader(data, "5.3")
     bits, neighbours = reader.unsigned(1), reader.unsigned(1)
     origin, step = [reader.f64() for _ in range(3)], reader.f64()
@@ -679,7 +743,18 @@ def reference_shape(data, faces, V):
     require(4 <= neighbours <= 16, "5.3", "neighbours")
     require(all(map(math.isfinite, origin)), "5.3", "origin")
     require(math.isfinite(step) and step > 0, "5.3", "step")
-    return ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode(), neighbours
+    indices = ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode()
+    return Shape(indices, origin, step), neighbours
+
+def shape_and_turns(data, faces, V):
+    """5.3 and 5.4."""
+    shape, neighbours = reference_shape(data, faces, V)
+    return shape, pyramid(faces, shape.indices, neighbours)
+
+class Shape:
+    """5.3 Where a reference shape has the vertices: indices on a lattice."""
+    def __init__(self, indices, origin, step):
+        self.indices, self.origin, self.step = indices, origin, step
 
 def surroundings(faces, V):
     """5.3.1 Surroundings. For each vertex its ring and its wings."""
@@ -975,6 +1050,15 @@ class Frames:
         self.R = [[0, 0, 0] for _ in gates]
         self.levels = {}  # by set and level, made when they are first used
         self.pyramid = PyramidFrames(self, turns) if turns else None
+
+    def hashed_values(self):
+        """7.6 What the digest covers of a frame, for each vertex."""
+        return self.X
+
+    def given_out(self, v):
+        """Indices and position of a vertex."""
+        index, edge = [x >> self.shift[v] for x in self.X[v]], self.step * 2.0 ** self.shift[v]
+        return index, [position(o, i, edge) for o, i in zip(self.origin, index)]
 
     def frame(self, coder, predictor):
         """7.5 A frame, from a two-ended stream."""

@@ -9,6 +9,7 @@ from bisect import bisect_left
 from collections import deque
 
 import tvg_reference as reference
+from tvg_lossless import LosslessFrames, line_of
 from tvg_reference import ANCILLARY, NONE, SIGNATURE, checksum, xxh64
 
 class Random:
@@ -62,13 +63,15 @@ def chunk(kind, payload, flags=None):
 
 # 4.1 HEAD
 KEYS = {"vertices": 1, "faces": 3, "frames_per_gop": 5, "packet_bytes": 7, "decoder_memory": 9, "meshes": 11,
-        "mesh_bytes": 13}
+        "mesh_bytes": 13, "plan_bytes": 15, "components": 17, "plans": 19}
 
-def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, shapes=False, **_):
+def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, plan_bytes=0, components=0, plans=1, shapes=False, **_):
     """8.2 Memory. shapes: whether meshes have reference shapes."""
+    planes = plan_bytes + plans * (4096 + components * (64 + 4 * vertices) + 8 * vertices) + 128 * vertices + 1536 * components
     return (2 ** 20 + 160 * vertices + 96 * faces + 4 * packet_bytes + mesh_bytes
             + (meshes - 1) * (512 + 24 * vertices + 16 * faces)
-            + (vertices * (400 + 128 * meshes) + 96 * faces if shapes else 0))
+            + (vertices * (400 + 128 * meshes) + 96 * faces if shapes or plan_bytes else 0)
+            + (planes if plan_bytes else 0))
 
 def head(version=(0, 2), others=None, **bounds):
     """others: values of keys that have no name. A bound that is None is left out."""
@@ -105,9 +108,16 @@ def predictors_of(packets):
     kinds = {kind for kind, _ in packets if 32 <= kind <= 35}
     return sum(1 << kind - 32 for kind in kinds)
 
+def channel_fields(channels=(1,)):
+    """All fields of mode basis, and the first of the others."""
+    return varint(len(channels)) + b"".join(map(varint, channels))
+
 def elp_fields(predictors, fine_bits, coarse_bits, origin, step, flags=b"", channels=(1,)):
-    return (varint(len(channels)) + b"".join(map(varint, channels)) + bytes([predictors, fine_bits, coarse_bits])
+    return (channel_fields(channels) + bytes([predictors, fine_bits, coarse_bits])
             + struct.pack("<4d", *origin, step) + flags)
+
+def lossless_fields(kind, amount, channels=(1,)):
+    return channel_fields(channels) + bytes([kind, amount])
 
 def digest(values):
     """4.5.3 The digest packet. values: the digest of each channel."""
@@ -427,3 +437,31 @@ class PyramidWriter(reference.PyramidFrames):
         d = self.frames.choose(v, axis, rounded, cells) - rounded
         say_residual(coder, -d if mirrored else d, k)
         return super().residual(coder, v, axis, rounded, mirrored, k, models)
+
+class LosslessWriter(LosslessFrames):
+    """7.9: writes frames whose numbers are chosen by a function of vertex, axis, rounded prediction and line."""
+    def __init__(self, turns, shape, kind, amount, choose):
+        super().__init__(turns, shape, line_of(kind, amount), reference.require, reference.Symbol, reference.Bit)
+        self.choose, self.hashed = choose, b""
+
+    def residual(self, coder, v, axis, rounded, known):
+        wanted = (self.choose(v, axis, rounded, self.line) - rounded + 2 ** 31) % 2 ** 32 - 2 ** 31
+        length = abs(wanted).bit_length()
+        symbol = reference.clamp(length - known.base + 9, 0, 15)
+        coder.say(symbol, *[length] * (symbol in (0, 15)))
+        if length > 0:
+            coder.say(int(wanted < 0))
+        if length > 1:
+            coder.say(abs(wanted) >> length - 2 & 1, abs(wanted) % 2 ** (length - 2))
+        return super().residual(coder, v, axis, rounded, known)
+
+    def write(self, predictor):
+        """Returns the stream of the next frame."""
+        self.coder = TwoEnded()
+        self.frame(self.coder, predictor)
+        self.hashed += b"".join(struct.pack("<3i", *values) for values in self.hashed_values())
+        return self.coder.data
+
+    def digest(self):
+        """7.6 The digest."""
+        return xxh64(self.hashed)

@@ -115,7 +115,8 @@ const char* tvg_code_name(int code) {
 tvg_code tvg_limits_init(tvg_limits* limits) {
   const tvg::DecoderLimits defaults;
   return give<tvg_limits>({sizeof(tvg_limits), defaults.vertices, defaults.faces, defaults.frames_per_gop,
-                           defaults.packet_bytes, defaults.memory, defaults.meshes, defaults.mesh_bytes},
+                           defaults.packet_bytes, defaults.memory, defaults.meshes, defaults.mesh_bytes,
+                           defaults.plan_bytes, defaults.components, defaults.plans},
                           limits);
 }
 
@@ -128,9 +129,9 @@ tvg_decoder* tvg_decoder_create(const tvg_limits* limits) {
     std::memcpy(&known, limits, std::min(limits->struct_size, sizeof known));
   }
   try {
-    return new tvg_decoder(tvg::DecoderLimits{known.vertices, known.faces, known.frames_per_gop,
-                                              known.packet_bytes, known.meshes, known.mesh_bytes,
-                                              known.memory_bytes});
+    return new tvg_decoder(tvg::DecoderLimits{
+        known.vertices, known.faces, known.frames_per_gop, known.packet_bytes, known.meshes, known.mesh_bytes,
+        known.memory_bytes, known.plan_bytes, known.components, known.plans});
   } catch (const std::exception&) {
     return nullptr;
   }
@@ -207,9 +208,10 @@ tvg_code tvg_decoder_get_gop(const tvg_decoder* decoder, tvg_gop_info* gop) {
   if (!decoder->has_gop) return TVG_ERROR_WRONG_STATE;
   const tvg::GopInfo& info = decoder->decoder.gop();
   const double ratio = static_cast<double>(std::uint32_t{1} << (info.fine_bits - info.coarse_bits));
-  return give<tvg_gop_info>({sizeof(tvg_gop_info), info.first_frame, info.source_frame, info.frame_count,
-                             info.flagged, info.step, info.step * ratio},
-                            gop);
+  return give<tvg_gop_info>(
+      {sizeof(tvg_gop_info), info.first_frame, info.source_frame, info.frame_count, info.flagged, info.step,
+       info.step * ratio, static_cast<std::uint32_t>(info.mode), info.components},
+      gop);
 }
 
 tvg_code tvg_decoder_copy_flags(const tvg_decoder* decoder, uint8_t* flags, size_t size) {
@@ -317,6 +319,12 @@ tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t* offset
 
 uint64_t tvg_decoder_skip(tvg_decoder* decoder) {
   return decoder == nullptr ? 0 : decoder->decoder.skip();
+}
+
+tvg_code tvg_decoder_use_components(tvg_decoder* decoder, uint32_t most) {
+  if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
+  decoder->decoder.use_components(most);
+  return TVG_OK;
 }
 
 const char* tvg_decoder_error_text(const tvg_decoder* decoder) {

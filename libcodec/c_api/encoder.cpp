@@ -92,6 +92,10 @@ tvg::EncodeOptions options_of(const tvg_encoder_options& given) {
   options.max_faces = given.max_faces;
   options.max_meshes = std::max(given.max_meshes, 1u);
   options.first_frame = given.first_frame;
+  options.mode = static_cast<tvg::Mode>(std::min(given.mode, 255u));
+  options.period_frames = given.period_frames;
+  if (given.effort != 0) options.effort = static_cast<int>(std::min(given.effort, 1000u));
+  if (given.max_error != 0) options.max_error = tvg::ErrorBound{given.max_error, false};
   if (given.has_box != 0) {
     options.box.emplace();
     options.box->extend(given.box_low[0], given.box_low[1], given.box_low[2]);
@@ -131,6 +135,8 @@ tvg_code tvg_encoder_options_init(tvg_encoder_options* options) {
   values.gop_frames = defaults.gop_frames;
   values.threads = defaults.threads;
   values.max_meshes = defaults.max_meshes;
+  values.mode = static_cast<std::uint32_t>(defaults.mode);
+  values.effort = static_cast<std::uint32_t>(defaults.effort);
   return give(values, options);
 }
 
@@ -215,7 +221,8 @@ tvg_code tvg_encoder_finish(tvg_encoder* encoder, tvg_encode_report* report) {
     const tvg::Result<tvg::EncodeReport> made = encoder->encoder->finish();
     if (!made) return made.error();
     if (report != nullptr)
-      give<tvg_encode_report>({sizeof(tvg_encode_report), made->frames, made->gops, made->bytes}, report);
+      give<tvg_encode_report>(
+          {sizeof(tvg_encode_report), made->frames, made->gops, made->bytes, made->largest_error}, report);
     return {};
   });
 }
@@ -288,7 +295,7 @@ tvg_code tvg_join(const tvg_stream_bytes* streams, size_t count, tvg_sink sink, 
       return code_of(made.error());
     }
     if (report == nullptr) return TVG_OK;
-    return give<tvg_encode_report>({sizeof(tvg_encode_report), made->frames, made->gops, made->bytes},
+    return give<tvg_encode_report>({sizeof(tvg_encode_report), made->frames, made->gops, made->bytes, 0},
                                    report);
   } catch (const std::exception&) {
     write_text("out of memory", error_text, error_size);

@@ -11,13 +11,6 @@
 // What the reader makes of the content of chunks other than GOPs.
 namespace tvg {
 
-namespace {
-
-/// Planes in force (format-spec §4.9).
-constexpr std::size_t kPlansInForce = 256;
-
-}  // namespace
-
 std::optional<ChunkReader::Event> ChunkReader::use_payload(Bytes payload) {
   switch (kind_) {
     case ChunkKind::kHead:
@@ -36,6 +29,8 @@ std::optional<ChunkReader::Event> ChunkReader::use_payload(Bytes payload) {
     }
     case ChunkKind::kMesh:
       return use_mesh(payload);
+    case ChunkKind::kPlan:
+      return use_plan(payload);
     case ChunkKind::kIndex:
       return use_index(payload);
     default:
@@ -88,41 +83,36 @@ bool ChunkReader::note_mesh(std::uint32_t vertex_count, std::optional<ErrorCode>
 }
 
 // format-spec §4.9
-std::optional<ChunkReader::Event> ChunkReader::begin_plan() {
-  const std::size_t size = std::min<std::size_t>(chunk_.length, plan_front_.size());
-  if (available().size() < size) return need_bytes();
-  std::copy_n(available().begin(), size, plan_front_.begin());
-  phase_ = Phase::kPassOver;
-  return std::nullopt;
-}
-
-/// Planes were passed over to their end, and their checksum fits.
-std::optional<ChunkReader::Event> ChunkReader::use_plan() {
-  PlanHeader plan;
-  Fault fault = read_plan_header(
-      Bytes(plan_front_).first(std::min<std::size_t>(chunk_.length, plan_front_.size())), plan);
-  if (!fault && meshes_.find(plan.mesh) == nullptr)
+std::optional<ChunkReader::Event> ChunkReader::use_plan(Bytes payload) {
+  Fault fault = read_plan(payload, plan_);
+  const std::uint64_t owner = fault ? 0 : owner_of_planes(plan_.mesh, plan_.mode);
+  const ChunkWindow::Entry* const mesh = fault ? nullptr : meshes_.find(plan_.mesh);
+  if (!fault && mesh == nullptr)
     fault = {state_ == StreamState::kOpen ? "§3.4" : "§4.9", "the mesh of planes is not in force"};
+  std::optional<ErrorCode> unusable;
   if (fault) {
-    whole_ = false;
-    return report(error_of(fault));
+    unusable = fault.code;
+  } else if (mesh->fault) {
+    unusable = mesh->fault;
+  } else if (plan_.adds_to != 0 || !is_known_mode(plan_.mode)) {
+    unusable = ErrorCode::kUnsupported;
   }
-  expected_index_.add({.offset = chunk_offset_, .kind = IndexEntry::Kind::kPlan});
-  if (!plans_.put({.id = payload_checksum_, .offset = chunk_offset_}, kPlansInForce))
-    return fail(out_of_memory());
+  if (!note_plan(owner, unusable)) return fail(out_of_memory());
+  if (!unusable) return Event::kPlan;
+  // Where something was passed over, the mesh may have been, too.
+  const bool passed_over = owner != 0 && mesh == nullptr && !whole_;
+  if (fault && !passed_over) return report(error_of(fault));
+  consume(std::exchange(used_, std::size_t{0}));  // a GOP that names it will tell
   return std::nullopt;
 }
 
-/// Whether the planes that a GOP names are in force; `back` becomes how far back each is.
-// format-spec §4.5.1
-bool ChunkReader::find_planes(PlaneNumbers& back) const {
-  ByteReader ids(gop_.planes);
-  for (std::size_t i = 0; i < gop_.plane_count(); ++i) {
-    const auto* const plan = plans_.find(ids.u32());
-    if (plan == nullptr || plans_.back(*plan) > kPlansInForce) return false;
-    back[i] = plans_.back(*plan);
-  }
-  return true;
+/// Planes take their place among those in force; what was made of them stays where they are there already.
+bool ChunkReader::note_plan(std::uint64_t owner, std::optional<ErrorCode> fault) {
+  ChunkWindow::Entry plan{.id = payload_checksum_, .fault = fault, .offset = chunk_offset_, .number = owner};
+  const ChunkWindow::Entry* const known = plans_.find(payload_checksum_);
+  if (known != nullptr && !known->fault && !fault) plan.content = known->content;
+  expected_index_.add({.offset = chunk_offset_, .kind = IndexEntry::Kind::kPlan});
+  return plans_.put(std::move(plan), head_.limits.plans);
 }
 
 // format-spec §4.6

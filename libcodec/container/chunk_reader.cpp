@@ -23,6 +23,8 @@ OrderRule rule_of_length(ChunkKind kind) {
       return {kPassOver, kFault, "§4.8", ErrorCode::kLimitExceeded};
     case ChunkKind::kMesh:
       return {kPassOver, kFault, "§4.3", ErrorCode::kLimitExceeded};
+    case ChunkKind::kPlan:
+      return {kPassOver, kFault, "§4.9", ErrorCode::kLimitExceeded};
     case ChunkKind::kIndex:
       return {kPassOver, kFault, "§4.6"};
     default:
@@ -64,8 +66,6 @@ std::optional<ChunkReader::Event> ChunkReader::step() {
       return read_header();
     case Phase::kPayload:
       return read_payload();
-    case Phase::kPlan:
-      return begin_plan();
     case Phase::kPassOver:
       return pass_payload();
     case Phase::kPacket:
@@ -142,8 +142,8 @@ void ChunkReader::begin_search(std::size_t passed) {
 }
 
 void ChunkReader::reject(ErrorCode why) {
-  if (kind_ == ChunkKind::kMesh) {
-    if (auto* const mesh = meshes_.find(payload_checksum_)) mesh->fault = why;
+  if (kind_ == ChunkKind::kMesh || kind_ == ChunkKind::kPlan) {
+    if (auto* const chunk = window_of(kind_).find(payload_checksum_)) chunk->fault = why;
   } else if (phase_ == Phase::kPacket && why == ErrorCode::kUnsupported) {
     phase_ = Phase::kPassOver;
   } else if (phase_ == Phase::kPacket) {
@@ -167,14 +167,15 @@ std::uint64_t ChunkReader::skip() {
   return count;
 }
 
-void ChunkReader::jump(std::uint64_t new_offset, std::span<const std::uint64_t> meshes) {
+void ChunkReader::jump(std::uint64_t new_offset, std::span<const std::uint64_t> kept) {
   buffer_.clear();
   begin_ = used_ = 0;
   content_ = {};
   offset_ = new_offset;
   phase_ = Phase::kChunkHeader;
   state_ = StreamState::kBody;
-  meshes_.keep_only(meshes);
+  meshes_.keep_only(kept);
+  plans_.keep_only(kept);
   index_offset_.reset();
   finished_ = false;
   whole_ = false;
@@ -268,7 +269,7 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
     phase_ = Phase::kPacket;
     if (!reserve_for_packets()) return fail(out_of_memory());
   } else {
-    phase_ = kind == ChunkKind::kPlan ? Phase::kPlan : Phase::kPayload;
+    phase_ = Phase::kPayload;
   }
   return Event::kChunk;
 }
@@ -294,6 +295,7 @@ std::uint64_t ChunkReader::most_payload(ChunkKind kind) const {
     case ChunkKind::kMesh:
       return head_.limits.mesh_bytes;
     case ChunkKind::kPlan:
+      return head_.limits.plan_bytes;
     case ChunkKind::kGop:
       return kMaxChunkLength;
     case ChunkKind::kIndex:
@@ -345,11 +347,11 @@ std::optional<ChunkReader::Event> ChunkReader::end_payload() {
         stream_error(ErrorCode::kChecksumMismatch, "§3.3", {"chunk '", text(chunk_.type), "' is damaged"}));
   }
   if (!in_sequence() || !flag_fits(chunk_, kind_)) return std::nullopt;
-  if (kind_ == ChunkKind::kPlan) return use_plan();
-  if (kind_ != ChunkKind::kMesh) return std::nullopt;
-  // Too long to be read, but other meshes go out of force by it.
-  if (!note_mesh(0, ErrorCode::kLimitExceeded)) return fail(out_of_memory());
-  return std::nullopt;
+  // Too long to be read, but others go out of force by it.
+  const bool noted = kind_ == ChunkKind::kMesh   ? note_mesh(0, ErrorCode::kLimitExceeded)
+                     : kind_ == ChunkKind::kPlan ? note_plan(0, ErrorCode::kLimitExceeded)
+                                                 : true;
+  return noted ? std::nullopt : std::optional(fail(out_of_memory()));
 }
 
 // format-spec §8.3

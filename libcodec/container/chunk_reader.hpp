@@ -10,7 +10,6 @@
 #include "container/packet.hpp"
 #include "container/plan_payload.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -36,7 +35,8 @@ class ChunkReader {
     kHead,      ///< head()
     kMetadata,  ///< metadata()
     kMesh,      ///< a mesh with counts that the head allows: mesh(), mesh_id(), content() is the payload
-    kGop,       ///< a GOP whose mesh is in force, in a known mode: gop(), content() is the header packet
+    kPlan,      ///< planes of a mesh that can be used, in a known mode: plan(), plan_id(), content()
+    kGop,       ///< a GOP whose mesh and planes are in force, in a known mode: gop(), content() is the header
     kGopLost,   ///< the same, but it cannot be decoded: gop(), problem(); the GOP is passed over
     kFrame,     ///< content() is a frame's packet, predictor()
     kDigest,    ///< content() is the digest of the GOP
@@ -65,22 +65,22 @@ class ChunkReader {
   /// The next event. What it names is valid until the next call of push() or next().
   Event next();
 
-  /// Keeps what was made of the mesh given out last as long as it is in force.
+  /// Keeps what was made of the mesh or the planes given out last as long as they are in force.
   void keep(std::shared_ptr<const void> content) {
-    meshes_.find(payload_checksum_)->content = std::move(content);
+    window_of(kind_).find(payload_checksum_)->content = std::move(content);
   }
   /// The content given out last cannot be used though its checksum fits. Of a GOP the rest is passed over;
-  /// what is malformed may be damage by chance, so that the next chunk is looked for. A mesh stays in force
-  /// as one that cannot be used.
+  /// what is malformed may be damage by chance, so that the next chunk is looked for. A mesh or planes stay
+  /// in force as what cannot be used.
   void reject(ErrorCode why);
   /// Passes over the rest of the current GOP unread.
   void pass_over();
   /// While a chunk is passed over: how many of the bytes that come next in the input belong to it. They
   /// count as pushed.
   std::uint64_t skip();
-  /// Goes on at the chunk at this place, whatever was read before; of the meshes in force those stay whose
-  /// chunks begin at one of these places. The head must have been read.
-  void jump(std::uint64_t new_offset, std::span<const std::uint64_t> meshes);
+  /// Goes on at the chunk at this place, whatever was read before; of the meshes and planes in force those
+  /// stay whose chunks begin at one of these places. The head must have been read.
+  void jump(std::uint64_t new_offset, std::span<const std::uint64_t> kept);
   /// Ends reading with this error.
   Event fail(Error error);
 
@@ -92,6 +92,11 @@ class ChunkReader {
   std::uint32_t mesh_id() const { return payload_checksum_; }
   /// Meshes in force; `number` is how many vertices each has.
   const ChunkWindow& meshes() const { return meshes_; }
+  /// Its parts are valid no longer than content().
+  const PlanHeader& plan() const { return plan_; }
+  std::uint32_t plan_id() const { return payload_checksum_; }
+  /// Chunks of planes in force, beside some whose meshes came again since (§4.9).
+  const ChunkWindow& plans() const { return plans_; }
   /// Its parts are valid no longer than content().
   const GopHeader& gop() const { return gop_; }
   Predictor predictor() const { return predictor_; }
@@ -123,7 +128,6 @@ class ChunkReader {
     kStart,
     kChunkHeader,
     kPayload,   ///< a payload that is used whole
-    kPlan,      ///< one of planes, of which the front is kept
     kPassOver,  ///< one that is not used
     kPacket,
     kGopChecksum,
@@ -143,18 +147,18 @@ class ChunkReader {
   std::optional<Event> use_payload(Bytes payload);
   Event use_head(Bytes payload);
   std::optional<Event> use_mesh(Bytes payload);
+  std::optional<Event> use_plan(Bytes payload);
   Event use_index(Bytes payload);
   std::optional<Event> use_tail(Bytes payload);
-  std::optional<Event> begin_plan();
   std::optional<Event> pass_payload();
   std::optional<Event> end_payload();
-  std::optional<Event> use_plan();
   std::optional<Event> next_packet();
   Event use_packet(const PacketRead& packet);
   Event use_gop_header();
-  using PlaneNumbers = std::array<std::uint64_t, 256>;
-  bool find_planes(PlaneNumbers& back) const;
+  Fault find_planes(const ChunkWindow::Entry& mesh, PlaneList& back) const;
+  Fault check_planes() const;
   bool note_mesh(std::uint32_t vertex_count, std::optional<ErrorCode> fault);
+  bool note_plan(std::uint64_t owner, std::optional<ErrorCode> fault);
   Event misplaced(const char* sentence);
   Event lose_gop(const Fault& fault);
   std::optional<Event> end_packets();
@@ -164,6 +168,7 @@ class ChunkReader {
 
   void enter_state(const ChunkHeader& header, ChunkKind kind);
   std::uint64_t most_payload(ChunkKind kind) const;
+  ChunkWindow& window_of(ChunkKind kind) { return kind == ChunkKind::kPlan ? plans_ : meshes_; }
   bool reserve_for_packets();
   std::optional<Event> need_bytes();
   Event tell(Event event, Error error, std::uint64_t offset, bool loses, bool searching);
@@ -201,8 +206,8 @@ class ChunkReader {
   std::uint32_t payload_checksum_ = 0;  ///< of the payload used last
   MeshLayout mesh_{};
   ChunkWindow meshes_;
-  std::array<std::uint8_t, PlanHeader::kMostBytes> plan_front_{};  ///< of the payload being passed over
-  ChunkWindow plans_;
+  PlanHeader plan_;
+  ChunkWindow plans_;  ///< `number` is owner_of_planes(); 0 where their header could not be read
 
   GopHeader gop_;
   Predictor predictor_ = Predictor::kSpace;

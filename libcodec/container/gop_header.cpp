@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::uint64_t kMostFirstFrame = std::uint64_t{1} << 62;
 constexpr std::uint64_t kMostPackets = 0x7FFFFFFF;
-constexpr std::uint64_t kMostPlanes = 256;
 
 }  // namespace
 
@@ -41,7 +40,7 @@ Fault parse(ByteReader reader, GopHeader& header) {
     return {kSection, "the GOP's frame numbers are out of range"};
   if (packet_count <= frame_count || packet_count > kMostPackets)
     return {kSection, "the number of the GOP's packets is out of range"};
-  if (planes > kMostPlanes) return {kSection, "the GOP names too many planes"};
+  if (planes > GopHeader::kMostPlanes) return {kSection, "the GOP names too many planes"};
   header.frame_count = static_cast<std::uint32_t>(frame_count);
   header.packet_count = static_cast<std::uint32_t>(packet_count);
   header.planes = reader.bytes(4 * planes);

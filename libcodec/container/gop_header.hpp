@@ -1,5 +1,6 @@
 #pragma once
 #include "base/byte_io.hpp"
+#include "base/stream_error.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -8,11 +9,22 @@
 
 namespace tvg {
 
-/// Mode elp, the only one so far (format-spec §4.5.1).
+// Modes (format-spec §4.5.1).
 inline constexpr std::uint64_t kModeElp = 0;
+inline constexpr std::uint64_t kModeBasis = 1;
+inline constexpr std::uint64_t kModeLossless = 2;
+
+constexpr bool is_known_mode(std::uint64_t mode) {
+  return mode <= kModeLossless;
+}
+/// What is wrong with a GOP in another, which may be valid.
+inline constexpr Fault kUnknownMode{"§4.5.1", "the GOP is in a mode that this decoder does not know",
+                                    ErrorCode::kUnsupported};
 
 /// §4.5.1: the first packet of a GOP, as far as it does not depend on the mode.
 struct GopHeader {
+  static constexpr std::size_t kMostPlanes = 256;
+
   std::uint32_t mesh = 0;         ///< id of the mesh
   std::uint64_t first_frame = 0;  ///< number of the first frame in the sequence it was encoded from
   std::uint32_t frame_count = 0;

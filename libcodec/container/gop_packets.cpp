@@ -3,6 +3,8 @@
 #include "container/chunk_reader.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 // The packets of a GOP, one by one (format-spec §4.5).
@@ -92,21 +94,50 @@ ChunkReader::Event ChunkReader::use_gop_header() {
     const char* const section = state_ == StreamState::kOpen ? "§3.4" : "§4.5.1";
     return lose_gop({section, "the mesh of a GOP is not in force"});
   }
-  PlaneNumbers planes{};
-  if (!find_planes(planes)) return lose_gop({"§4.5.1", "planes of a GOP are not in force"});
+  PlaneList planes_back;
+  if (const Fault fault = find_planes(*mesh, planes_back)) return lose_gop(fault);
   expected_index_.add({.offset = chunk_offset_,
                        .frame_count = gop_.frame_count,
                        .meshes_back = static_cast<std::uint32_t>(meshes_.back(*mesh)),
-                       .kind = IndexEntry::Kind::kGop},
-                      PlanesBack(planes).first(gop_.plane_count()));
+                       .kind = IndexEntry::Kind::kGop,
+                       .planes_back = std::move(planes_back)});
   if (mesh->fault) return lose_gop({"§4.3", "the mesh of a GOP cannot be used", *mesh->fault});
-  if (gop_.mode != kModeElp) {
-    return lose_gop(
-        {"§4.5.1", "the GOP is in a mode that this decoder does not know", ErrorCode::kUnsupported});
-  }
+  if (!is_known_mode(gop_.mode)) return lose_gop(kUnknownMode);
+  if (const Fault fault = check_planes()) return lose_gop(fault);
   packet_number_ = 1;
   frames_met_ = 0;
   return Event::kGop;
+}
+
+/// Whether the planes that the GOP names are in force; `back` becomes how far back each is.
+// format-spec §4.5.1, §4.9
+Fault ChunkReader::find_planes(const ChunkWindow::Entry& mesh, PlaneList& back) const {
+  std::array<std::uint64_t, GopHeader::kMostPlanes> numbers{};
+  const auto named = std::span(numbers).first(gop_.plane_count());
+  ByteReader ids(gop_.planes);
+  for (std::uint64_t& number : named) {
+    const auto* const plan = plans_.find(ids.u32());
+    if (plan == nullptr || plan->offset < mesh.offset) return {"§4.5.1", "planes of a GOP are not in force"};
+    number = plans_.back(*plan);
+  }
+  std::optional<PlaneList> list = PlaneList::of(named);
+  if (!list) return {"", "out of memory", ErrorCode::kOutOfMemory};
+  back = *std::move(list);
+  return {};
+}
+
+/// Whether the planes that the GOP names, all in force, can be used for it.
+// format-spec §4.5.1
+Fault ChunkReader::check_planes() const {
+  const std::uint64_t owner = owner_of_planes(gop_.mesh, gop_.mode);
+  ByteReader ids(gop_.planes);
+  for (std::size_t i = 0; i < gop_.plane_count(); ++i) {
+    const auto* const plan = plans_.find(ids.u32());
+    if (plan->number != 0 && plan->number != owner)
+      return {"§4.5.1", "planes of a GOP belong to another mesh or mode"};
+    if (plan->fault) return {"§4.9", "planes of a GOP cannot be used", *plan->fault};
+  }
+  return {};
 }
 
 /// The GOP whose header was just read cannot be decoded.

@@ -21,9 +21,13 @@ enum Key : std::uint64_t {
   kDecoderMemory = 9,
   kMeshes = 11,
   kMeshBytes = 13,
+  kPlanBytes = 15,
+  kComponents = 17,
+  kPlans = 19,
 };
 constexpr std::array kKeys = {kVertices,      kFaces,  kFramesPerGop, kPacketBytes,
                               kDecoderMemory, kMeshes, kMeshBytes};
+constexpr std::array kKeysOfPlanes = {kPlanBytes, kComponents, kPlans};  // which a head may lack
 
 /// The 32-bit bound with this key; null for decoder_memory and keys that are not known.
 std::uint32_t* bound_of(StreamLimits& limits, std::uint64_t key) {
@@ -40,6 +44,12 @@ std::uint32_t* bound_of(StreamLimits& limits, std::uint64_t key) {
       return &limits.meshes;
     case kMeshBytes:
       return &limits.mesh_bytes;
+    case kPlanBytes:
+      return &limits.plan_bytes;
+    case kComponents:
+      return &limits.components;
+    case kPlans:
+      return &limits.plans;
     default:
       return nullptr;
   }
@@ -64,6 +74,9 @@ bool take_bound(StreamLimits& limits, std::uint64_t key, std::uint64_t value) {
     return value < (std::uint64_t{1} << 63);
   }
   if (value > 0xFFFFFFFF || (key == kMeshes && (value == 0 || value > kMaxMeshesInForce))) return false;
+  if ((key == kComponents && value > kMaxComponents) ||
+      (key == kPlans && (value == 0 || value > kMaxPlansInForce)))
+    return false;
   *bound_of(limits, key) = static_cast<std::uint32_t>(value);
   return true;
 }
@@ -79,10 +92,21 @@ std::vector<std::uint8_t> write_head(const StreamLimits& limits) {
     head.varint(key);
     head.varint(key == kDecoderMemory ? bounds.decoder_memory : *bound_of(bounds, key));
   }
+  if (bounds.plan_bytes == 0) return head.take();
+  for (const Key key : kKeysOfPlanes) {
+    head.varint(key);
+    head.varint(*bound_of(bounds, key));
+  }
   return head.take();
 }
 
 namespace {
+
+/// What any stream with these bounds must declare.
+// format-spec §8.2
+std::uint64_t least_memory(const StreamLimits& limits) {
+  return limits.plan_bytes > 0 ? decoder_memory_with_plans(limits) : decoder_memory_needed(limits);
+}
 
 // format-spec §4.1
 Fault parse_bounds(ByteReader& reader, StreamLimits& limits) {
@@ -98,11 +122,11 @@ Fault parse_bounds(ByteReader& reader, StreamLimits& limits) {
       return {kSection, "the head has a bound that this decoder does not know",
               ErrorCode::kUnsupportedVersion};
     }
-    ++known;
+    if (key <= kMeshBytes) ++known;
     if (!take_bound(limits, key, value)) return {kSection, "a bound of the head is out of range"};
   }
   if (known < kKeys.size()) return {kSection, "the head lacks a bound"};
-  if (limits.decoder_memory < decoder_memory_needed(limits))
+  if (limits.decoder_memory < least_memory(limits))
     return {kSection, "the declared decoder memory is less than the declared bounds need"};
   return {};
 }
@@ -136,6 +160,9 @@ Status check_declared(const StreamLimits& declared, const DecoderLimits& allowed
       {"bytes per packet", &StreamLimits::packet_bytes, &DecoderLimits::packet_bytes},
       {"meshes in force", &StreamLimits::meshes, &DecoderLimits::meshes},
       {"bytes per mesh", &StreamLimits::mesh_bytes, &DecoderLimits::mesh_bytes},
+      {"bytes per chunk of planes", &StreamLimits::plan_bytes, &DecoderLimits::plan_bytes},
+      {"components", &StreamLimits::components, &DecoderLimits::components},
+      {"chunks of planes in force", &StreamLimits::plans, &DecoderLimits::plans},
   };
   const auto above = [](const char* what, std::uint64_t asked, std::uint64_t most) {
     if (!can_allocate(kSmallThings)) return out_of_memory();
@@ -152,6 +179,15 @@ Status check_declared(const StreamLimits& declared, const DecoderLimits& allowed
   return {};
 }
 
+namespace {
+
+/// Whether meshes of such a stream may have reference shapes.
+bool has_room_for_shapes(const StreamLimits& limits) {
+  return limits.decoder_memory >= decoder_memory_with_shapes(limits);
+}
+
+}  // namespace
+
 StreamLimits larger_limits(const StreamLimits& a, const StreamLimits& b) {
   StreamLimits limits;
   limits.vertices = std::max(a.vertices, b.vertices);
@@ -160,7 +196,13 @@ StreamLimits larger_limits(const StreamLimits& a, const StreamLimits& b) {
   limits.packet_bytes = std::max(a.packet_bytes, b.packet_bytes);
   limits.meshes = std::max(a.meshes, b.meshes);
   limits.mesh_bytes = std::max(a.mesh_bytes, b.mesh_bytes);
-  limits.decoder_memory = std::max({a.decoder_memory, b.decoder_memory, decoder_memory_needed(limits)});
+  limits.plan_bytes = std::max(a.plan_bytes, b.plan_bytes);
+  limits.components = std::max(a.components, b.components);
+  limits.plans = std::max(a.plans, b.plans);
+  const bool shapes = has_room_for_shapes(a) || has_room_for_shapes(b);
+  const std::uint64_t needed =
+      std::max(least_memory(limits), shapes ? decoder_memory_with_shapes(limits) : 0);
+  limits.decoder_memory = std::max({a.decoder_memory, b.decoder_memory, needed});
   return limits;
 }
 

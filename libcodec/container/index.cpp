@@ -3,8 +3,11 @@
 #include "base/allocation.hpp"
 #include "base/stream_error.hpp"
 #include "container/chunk.hpp"
+#include "container/gop_header.hpp"
 
 #include <array>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace tvg {
@@ -53,45 +56,51 @@ class IndexReader {
     IndexEntry entry;
     entry.kind = static_cast<Kind>(kind);
     entry.offset = offset_;
-    std::size_t planes = 0;
     if (entry.kind == Kind::kMesh) ++meshes_;
     if (entry.kind == Kind::kPlan) ++planes_;
-    if (entry.is_gop() && !read_gop(fields, entry, planes))
-      return {kSection, "a GOP's index entry is out of range"};
+    if (entry.is_gop()) {
+      if (const Fault fault = read_gop(fields, entry)) return fault;
+    }
     if (!fields.finished()) return {kSection, "the fields of an index entry do not fill it exactly"};
-    index_.entries.push_back(entry);
-    index_.digest.add(entry, PlanesBack(back_).first(planes));
+    index_.digest.add(entry);
+    index_.entries.push_back(std::move(entry));
     return {};
   }
 
-  bool read_gop(ByteReader& fields, IndexEntry& entry, std::size_t& planes) {
+  Fault read_gop(ByteReader& fields, IndexEntry& entry) {
+    constexpr Fault kOutOfRange{kSection, "a GOP's index entry is out of range"};
     const std::uint64_t frames = fields.varint();
     const std::uint64_t meshes_back = fields.varint();
     const std::uint64_t count = fields.varint();
     if (!fields.ok() || frames == 0 || frames > 0xFFFFFFFF || meshes_back == 0 || meshes_back > meshes_ ||
         meshes_back > 0xFFFFFFFF || count > back_.size()) {
-      return false;
+      return kOutOfRange;
     }
     entry.frame_count = static_cast<std::uint32_t>(frames);
     entry.meshes_back = static_cast<std::uint32_t>(meshes_back);
-    for (; planes < count; ++planes) {
-      back_[planes] = fields.varint();
-      if (!fields.ok() || back_[planes] == 0 || back_[planes] > planes_) return false;
+    const auto planes_back = std::span(back_).first(static_cast<std::size_t>(count));
+    for (std::uint64_t& back : planes_back) {
+      back = fields.varint();
+      if (!fields.ok() || back == 0 || back > planes_) return kOutOfRange;
     }
-    return true;
+    std::optional<PlaneList> planes = PlaneList::of(planes_back);
+    if (!planes) return {"", "out of memory", ErrorCode::kOutOfMemory};
+    entry.planes_back = *std::move(planes);
+    return {};
   }
 
   ByteReader reader_;
   std::uint64_t index_offset_;
   Index index_;
   std::uint64_t offset_ = 0;
-  std::uint64_t meshes_ = 0, planes_ = 0;  ///< entries so far
-  std::array<std::uint64_t, 256> back_{};
+  std::uint64_t meshes_ = 0, planes_ = 0;                     ///< entries so far
+  std::array<std::uint64_t, GopHeader::kMostPlanes> back_{};  ///< of the GOP being read
 };
 
 }  // namespace
 
-void IndexDigest::add(const IndexEntry& entry, PlanesBack planes) {
+void IndexDigest::add(const IndexEntry& entry) {
+  const std::span<const std::uint64_t> planes = entry.planes_back.numbers();
   const auto hash = [this](std::uint64_t value) {
     const std::array halves = {static_cast<std::int32_t>(value), static_cast<std::int32_t>(value >> 32)};
     hash_.update(std::span<const std::int32_t>(halves));
@@ -117,7 +126,8 @@ std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries) {
     if (entry.is_gop()) {
       fields.varint(entry.frame_count);
       fields.varint(entry.meshes_back);
-      fields.varint(0);  // planes: no mode that this library writes has any
+      fields.varint(entry.planes_back.numbers().size());
+      for (const std::uint64_t back : entry.planes_back.numbers()) fields.varint(back);
     }
     writer.varint(fields.data().size());
     writer.bytes(fields.data());

@@ -12,13 +12,10 @@
 // The index and the tail that leads to it (format-spec §4.6, §4.7).
 namespace tvg {
 
-/// Planes that a GOP names (§4.5.1), as its index entry has them: each so many planes back.
-using PlanesBack = std::span<const std::uint64_t>;
-
 /// The entries of an index, as a digest: a live stream may run for days, and a list would grow.
 class IndexDigest {
  public:
-  void add(const IndexEntry& entry, PlanesBack planes = {});
+  void add(const IndexEntry& entry);
   std::uint64_t count() const { return count_; }
   bool operator==(const IndexDigest& other) const {
     return count_ == other.count_ && hash_.value() == other.hash_.value();
@@ -34,7 +31,7 @@ std::vector<std::uint8_t> write_index(const std::vector<IndexEntry>& entries);
 /// An index as it was read.
 struct Index {
   std::vector<IndexEntry> entries;  ///< those of known kinds
-  IndexDigest digest;               ///< of these, with the planes of GOPs
+  IndexDigest digest;               ///< of these
 };
 /// An index that stands at `offset` of its stream: all entries lie before it.
 Result<Index> read_index(Bytes payload, std::uint64_t offset = ~std::uint64_t{0});

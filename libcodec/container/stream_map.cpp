@@ -1,6 +1,9 @@
 #include "base/allocation.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 
 #include <tvg/stream_map.hpp>
 
@@ -9,9 +12,9 @@ namespace tvg {
 namespace {
 
 /// A list of offsets, ascending, of which those furthest back in the stream go where there are too many.
-class NeededMeshes {
+class NeededChunks {
  public:
-  explicit NeededMeshes(std::size_t most) : most_(most) {}
+  explicit NeededChunks(std::size_t most) : most_(most) {}
 
   /// False where there is no memory.
   bool add(std::uint64_t offset) {
@@ -24,12 +27,54 @@ class NeededMeshes {
     return true;
   }
   bool full() const { return offsets_.size() == most_; }
-  std::vector<std::uint64_t> take() { return std::move(offsets_); }
+  std::span<const std::uint64_t> offsets() const { return offsets_; }
 
  private:
   std::vector<std::uint64_t> offsets_;
   std::size_t most_;
 };
+
+/// What decoding needs that begins at a GOP, of meshes and planes.
+struct Needed {
+  NeededChunks meshes, plans;
+
+  bool full() const { return meshes.full() && plans.full(); }
+
+  /// Adds what this GOP names and what lies before `end`. False where there is no memory.
+  bool add_for(const StreamMap::Place& gop, std::uint64_t end) {
+    if (gop.mesh_offset && *gop.mesh_offset < end && !meshes.add(*gop.mesh_offset)) return false;
+    const auto plan_offsets = gop.plan_offsets.numbers();
+    return std::all_of(plan_offsets.begin(), plan_offsets.end(),
+                       [&](std::uint64_t plan) { return plan >= end || plans.add(plan); });
+  }
+
+  /// Adds the mesh or the planes of this place, which may be named. False where there is no memory.
+  bool add_chunk(const IndexEntry& place) {
+    if (place.kind == IndexEntry::Kind::kMesh) return meshes.full() || meshes.add(place.offset);
+    return place.kind != IndexEntry::Kind::kPlan || plans.full() || plans.add(place.offset);
+  }
+
+  /// All of them, ascending. Empty where there is no memory.
+  std::vector<std::uint64_t> take() const {
+    std::vector<std::uint64_t> all;
+    if (!try_resize(all, meshes.offsets().size() + plans.offsets().size())) return {};
+    const auto first = meshes.offsets(), second = plans.offsets();
+    std::merge(first.begin(), first.end(), second.begin(), second.end(), all.begin());
+    return all;
+  }
+};
+
+/// The offsets of chunks that are so many back from the end of the list; of none where one is not there.
+/// Nothing where there is no memory.
+std::optional<PlaneList> offsets_of(const PlaneList& back, std::span<const std::uint64_t> chunks) {
+  std::array<std::uint64_t, 256> offsets{};
+  std::size_t count = 0;
+  for (const std::uint64_t number : back.numbers()) {
+    if (number == 0 || number > chunks.size() || count == offsets.size()) return PlaneList();
+    offsets[count++] = chunks[chunks.size() - static_cast<std::size_t>(number)];
+  }
+  return PlaneList::of(std::span(offsets).first(count));
+}
 
 }  // namespace
 
@@ -46,15 +91,19 @@ bool StreamMap::note(const Place& place) {
 
 bool StreamMap::set_index(std::span<const IndexEntry> entries) {
   places_.clear();
-  std::vector<std::uint64_t> meshes;
+  std::vector<std::uint64_t> meshes, plans;
   from_index_ = try_reserve(places_, entries.size());
   for (const IndexEntry& entry : entries) {
     if (!from_index_) return false;
-    Place place{entry, frame_count(), {}};
+    Place place{entry, frame_count(), {}, {}};
     if (entry.kind == IndexEntry::Kind::kMesh) from_index_ = try_push_back(meshes, entry.offset);
+    if (entry.kind == IndexEntry::Kind::kPlan) from_index_ = try_push_back(plans, entry.offset);
     if (entry.meshes_back > 0 && entry.meshes_back <= meshes.size())
       place.mesh_offset = meshes[meshes.size() - entry.meshes_back];
-    places_.push_back(place);
+    std::optional<PlaneList> plan_offsets = offsets_of(entry.planes_back, plans);
+    from_index_ = from_index_ && plan_offsets;
+    if (plan_offsets) place.plan_offsets = *std::move(plan_offsets);
+    places_.push_back(std::move(place));
   }
   if (!from_index_) places_.clear();
   return from_index_;
@@ -72,17 +121,17 @@ const StreamMap::Place* StreamMap::gop_for(std::uint64_t frame) const {
   return nullptr;
 }
 
-std::vector<std::uint64_t> StreamMap::meshes_for(const Place& gop, std::uint32_t meshes_in_force) const {
-  if (meshes_in_force <= 1)
+std::vector<std::uint64_t> StreamMap::needed_for(const Place& gop, const StreamLimits& limits) const {
+  const bool has_planes = limits.plan_bytes > 0;
+  if (limits.meshes <= 1 && !has_planes)
     return gop.mesh_offset ? std::vector<std::uint64_t>{*gop.mesh_offset} : std::vector<std::uint64_t>();
-  NeededMeshes needed(meshes_in_force);
+  Needed needed{NeededChunks(limits.meshes), NeededChunks(has_planes ? limits.plans : 0)};
   const auto first = static_cast<std::size_t>(&gop - places_.data());
   for (const Place& place : places().subspan(first)) {
-    const bool before = place.mesh_offset && *place.mesh_offset < gop.entry.offset;
-    if (before && !needed.add(*place.mesh_offset)) return {};
+    if (place.entry.is_gop() && !needed.add_for(place, gop.entry.offset)) return {};
   }
   for (std::size_t i = first; !from_index_ && i-- > 0 && !needed.full();) {
-    if (places_[i].entry.kind == IndexEntry::Kind::kMesh && !needed.add(places_[i].entry.offset)) return {};
+    if (!needed.add_chunk(places_[i].entry)) return {};
   }
   return needed.take();
 }

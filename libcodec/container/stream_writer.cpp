@@ -7,20 +7,47 @@
 #include "container/index.hpp"
 #include "container/metadata.hpp"
 #include "container/packet.hpp"
+#include "container/plan_payload.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
 
 namespace tvg {
 
-std::uint32_t mesh_id(Bytes mesh_chunk) {
-  return ByteReader(mesh_chunk.last(std::min(mesh_chunk.size(), kChunkChecksumSize))).u32();
+namespace {
+
+Error not_in_force(const char* what, const char* section) {
+  return Error{ErrorCode::kInvalidArgument, std::string(what) + " not in force", {}, {}, section};
 }
 
-std::optional<std::uint32_t> mesh_of_gop(Bytes gop_chunk) {
+std::uint64_t hash_of(Bytes chunk) {
+  Hasher hash;
+  hash.update(chunk);
+  return hash.value();
+}
+
+}  // namespace
+
+std::uint32_t chunk_id(Bytes chunk) {
+  return ByteReader(chunk.last(std::min(chunk.size(), kChunkChecksumSize))).u32();
+}
+
+std::optional<GopHeader> header_of_gop(Bytes gop_chunk) {
   ByteReader reader(gop_chunk);
   reader.bytes(kChunkHeaderSize);
   const std::uint8_t kind = reader.u8();
-  reader.varint();  // the size of the header packet
-  const std::uint32_t mesh = reader.u32();
-  return reader.ok() && kind == packet_kind::kHeader ? std::optional(mesh) : std::nullopt;
+  const Bytes packet = reader.bytes(reader.varint());
+  if (!reader.ok() || kind != packet_kind::kHeader) return std::nullopt;
+  const Result<GopHeader> header = read_gop_header(packet);
+  return header ? std::optional(*header) : std::nullopt;
+}
+
+std::vector<std::uint32_t> plane_ids(const GopHeader& header) {
+  std::vector<std::uint32_t> ids(header.plane_count());
+  ByteReader reader(header.planes);
+  for (std::uint32_t& id : ids) id = reader.u32();
+  return ids;
 }
 
 Status StreamWriter::write(Bytes bytes) {
@@ -29,7 +56,7 @@ Status StreamWriter::write(Bytes bytes) {
 }
 
 Status StreamWriter::write_start(const StreamLimits& limits, const Metadata& metadata) {
-  meshes_in_force_ = limits.meshes;
+  limits_ = limits;
   if (Status status = write(kSignature); !status.ok()) return status;
   if (Status status = write(write_chunk(kHeadChunk, false, write_head(limits))); !status.ok()) return status;
   if (metadata.empty()) return {};
@@ -37,32 +64,60 @@ Status StreamWriter::write_start(const StreamLimits& limits, const Metadata& met
 }
 
 Status StreamWriter::write_mesh_chunk(Bytes chunk) {
-  Hasher hash;
-  hash.update(chunk);
-  const std::uint32_t id = mesh_id(chunk);
+  const std::uint32_t id = chunk_id(chunk);
+  const std::uint64_t hash = hash_of(chunk);
   if (const auto* const known = meshes_.find(id)) {
-    if (known->number == hash.value()) return {};
+    if (known->number == hash) return {};
     return Error{ErrorCode::kInvalidInput,
                  "two different meshes have the same checksum, by which a stream names them",
                  {},
                  {},
                  "§4.3"};
   }
-  if (!meshes_.put({.id = id, .offset = offset_, .number = hash.value()}, meshes_in_force_))
-    return out_of_memory();
+  if (!meshes_.put({.id = id, .offset = offset_, .number = hash}, limits_.meshes)) return out_of_memory();
   index_.push_back({.offset = offset_, .kind = IndexEntry::Kind::kMesh});
   return write(chunk);
 }
 
+Status StreamWriter::write_plan_chunk(Bytes chunk) {
+  PlanHeader plan;
+  const bool whole = chunk.size() >= kLeastChunkSize;
+  const Bytes payload = whole ? chunk.subspan(kChunkHeaderSize, chunk.size() - kLeastChunkSize) : Bytes();
+  if (const Fault fault = read_plan(payload, plan)) return error_of(fault);
+  const auto* const mesh = meshes_.find(plan.mesh);
+  if (mesh == nullptr) return not_in_force("the mesh of planes is", "§4.9");
+  const std::uint32_t id = chunk_id(chunk);
+  const std::uint64_t hash = hash_of(chunk);
+  if (const auto* const known = plans_.find(id); known != nullptr && known->offset > mesh->offset) {
+    if (known->number == hash) return {};
+    return Error{ErrorCode::kInvalidInput,
+                 "two different chunks of planes have the same checksum, by which a stream names them",
+                 {},
+                 {},
+                 "§4.9"};
+  }
+  if (!plans_.put({.id = id, .offset = offset_, .number = hash}, limits_.plans)) return out_of_memory();
+  index_.push_back({.offset = offset_, .kind = IndexEntry::Kind::kPlan});
+  return write(chunk);
+}
+
 Status StreamWriter::write_gop_chunk(Bytes chunk, std::uint32_t frame_count) {
-  const std::optional<std::uint32_t> id = mesh_of_gop(chunk);
-  const auto* const mesh = id ? meshes_.find(*id) : nullptr;
-  if (mesh == nullptr)
-    return Error{ErrorCode::kInvalidArgument, "the mesh of a GOP is not in force", {}, {}, "§4.5.1"};
+  const std::optional<GopHeader> header = header_of_gop(chunk);
+  const auto* const mesh = header ? meshes_.find(header->mesh) : nullptr;
+  if (mesh == nullptr) return not_in_force("the mesh of a GOP is", "§4.5.1");
+  std::vector<std::uint64_t> planes_back;
+  for (const std::uint32_t id : plane_ids(*header)) {
+    const auto* const plan = plans_.find(id);
+    if (plan == nullptr || plan->offset < mesh->offset) return not_in_force("planes of a GOP are", "§4.5.1");
+    planes_back.push_back(plans_.back(*plan));
+  }
+  std::optional<PlaneList> planes = PlaneList::of(planes_back);
+  if (!planes) return out_of_memory();
   index_.push_back({.offset = offset_,
                     .frame_count = frame_count,
                     .meshes_back = static_cast<std::uint32_t>(meshes_.back(*mesh)),
-                    .kind = IndexEntry::Kind::kGop});
+                    .kind = IndexEntry::Kind::kGop,
+                    .planes_back = *std::move(planes)});
   return write(chunk);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/byte_io.hpp"
 #include "container/chunk_window.hpp"
+#include "container/gop_header.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -11,11 +12,14 @@
 
 namespace tvg {
 
-/// The name of a mesh (format-spec §4.3): the payload checksum of its whole chunk.
-std::uint32_t mesh_id(Bytes mesh_chunk);
-/// The mesh that a GOP names, from its chunk as far as the end of the header packet; nothing where that is no
-/// GOP.
-std::optional<std::uint32_t> mesh_of_gop(Bytes gop_chunk);
+/// The name of a mesh or of planes (format-spec §4.3, §4.9): the payload checksum of their whole chunk.
+std::uint32_t chunk_id(Bytes chunk);
+/// The header of a GOP, from its chunk as far as the end of the header packet; nothing where that is no GOP.
+/// Its parts lie in the bytes given.
+std::optional<GopHeader> header_of_gop(Bytes gop_chunk);
+
+/// The names of the planes that a GOP names.
+std::vector<std::uint32_t> plane_ids(const GopHeader& header);
 
 /// Writes a stream's structures in their order and keeps the index (format-spec §3.4).
 class StreamWriter {
@@ -28,8 +32,11 @@ class StreamWriter {
   /// Writes a mesh unless it is in force already; `chunk` is all of its chunk. kInvalidInput where another
   /// mesh of the same name is in force.
   Status write_mesh_chunk(Bytes chunk);
+  /// Writes planes unless they are in force already; `chunk` is all of their chunk. kInvalidInput where
+  /// others of the same name are in force, kInvalidArgument where their mesh is not.
+  Status write_plan_chunk(Bytes chunk);
   /// `chunk` reaches at least to the end of the header packet; write() takes the rest. kInvalidArgument where
-  /// the mesh it names is not in force.
+  /// the mesh or planes that it names are not in force.
   Status write_gop_chunk(Bytes chunk, std::uint32_t frame_count);
   /// Index and tail.
   Status write_end();
@@ -42,8 +49,10 @@ class StreamWriter {
   std::function<Status(Bytes)> sink_;
   std::uint64_t offset_ = 0;
   std::vector<IndexEntry> index_;
-  std::uint32_t meshes_in_force_ = 1;
-  ChunkWindow meshes_;  ///< `number` is the payload's hash, which tells meshes of one name apart
+  StreamLimits limits_;
+  // `number` is the chunk's hash, which tells chunks of one name apart.
+  ChunkWindow meshes_;
+  ChunkWindow plans_;
 };
 
 }  // namespace tvg

@@ -39,12 +39,16 @@ class Decoder::State {
   std::vector<IndexEntry> index;
   /// Decodes a frame and fills frame_bits; null while nobody asks for bits.
   Status (GopDecoder::*measured_take)(Bytes, Predictor, std::array<double, 3>&) = nullptr;
+  std::uint32_t most_components = kMaxComponents;  ///< of planes that are read from now on
 
  private:
   /// What the next structure of the stream yields; nothing where it is of no interest outside.
   std::optional<Event> step();
   Event take_chunk();
   std::optional<Event> take_mesh();
+  std::optional<Event> take_plan();
+  std::shared_ptr<const BasisPlan> plan_in_force(std::uint32_t id) const;
+  std::shared_ptr<const BasisPlan> plan_of_gop() const;
   Status decode_mesh_read();
   std::shared_ptr<const GopMesh> mesh_in_force(std::uint32_t id) const;
   bool show(std::shared_ptr<const GopMesh> next);
@@ -79,7 +83,8 @@ class Decoder::State {
   std::uint64_t gop_end_ = 0;  ///< number of the frame behind the GOP being read; 0 outside
   StreamMap map_;
   std::optional<std::uint64_t> target_;  ///< the frame sought: frames before it are not given out
-  std::vector<std::uint64_t> needed_;    ///< where the meshes begin that the way there leads over, ascending
+  std::vector<std::uint64_t>
+      needed_;  ///< where meshes and planes begin that the way there leads over, ascending
 };
 
 }  // namespace tvg

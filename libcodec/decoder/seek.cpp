@@ -30,25 +30,26 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
   target_ = frame;
   needed_.clear();
   if (inside || beyond || gop_place == nullptr) return reader.input_offset();
-  needed_ = map_.meshes_for(*gop_place, reader.head().limits.meshes);
+  needed_ = map_.needed_for(*gop_place, reader.head().limits);
   jump(*next_stop());
   deferred_ = {};
   return reader.offset();
 }
 
-/// Goes on at this mesh or GOP.
+/// Goes on at this mesh, at these planes or at this GOP.
 void Decoder::State::jump(const StreamMap::Place& place) {
   reader.jump(place.entry.offset, needed_);
   frames_.jump(place.first_frame);
   gop_end_ = 0;
 }
 
-/// Where to go on on the way to the GOP sought: at the first mesh that it needs and that is not in force, or
+/// Where to go on on the way to the GOP sought: at the first chunk that it needs and that is not in force, or
 /// at the GOP; null where that is not known.
 const StreamMap::Place* Decoder::State::next_stop() const {
   for (const std::uint64_t offset : needed_) {
-    const StreamMap::Place* const mesh_place = map_.at(offset);
-    if (mesh_place != nullptr && !reader.meshes().holds(offset)) return mesh_place;
+    const StreamMap::Place* const place = map_.at(offset);
+    const bool held = reader.meshes().holds(offset) || reader.plans().holds(offset);
+    if (place != nullptr && !held) return place;
   }
   return map_.gop_for(*target_);
 }

@@ -4,6 +4,9 @@
 #include "container/chunk.hpp"
 #include "container/mesh_payload.hpp"
 #include "container/metadata.hpp"
+#include "encoder/effort.hpp"
+#include "modes/basis_encode.hpp"
+#include "modes/lossless_line_encode.hpp"
 #include "quantization/lattice_over_encode.hpp"
 
 #include <algorithm>
@@ -28,14 +31,45 @@ Status check_metadata(const Metadata& metadata) {
   return {};
 }
 
+Status check_lossless(const EncodeOptions& options) {
+  if (options.mode != Mode::kLossless) return {};
+  if (options.fine_bits != options.coarse_bits || options.step || options.max_error)
+    return invalid_argument(
+        "without loss there is one resolution, that of float32: give no bits, step or largest error");
+  if (options.predictor != Predictor::kElp && options.predictor != Predictor::kPyramid)
+    return invalid_argument("without loss vertices are predicted along the pyramid: give no predictor");
+  return {};
+}
+
+Status check_basis(const EncodeOptions& options) {
+  if (options.period_frames > (1u << 16)) return invalid_argument("a period must have at most 65536 frames");
+  if (options.mode == Mode::kBasis && !options.step && !options.max_error &&
+      options.fine_bits > kMostBasisBits)
+    return invalid_argument("mode basis takes 1 to 16 bits: use mode elp for more");
+  if (!options.max_error) return {};
+  if (!(options.max_error->value > 0) || !std::isfinite(options.max_error->value))
+    return invalid_argument("the largest error must be above 0, and finite");
+  if (options.fine_bits != options.coarse_bits)
+    return invalid_argument("a largest error is one for all vertices: B2 and B1 must be the same");
+  const bool of_its_own = options.max_error->of_diagonal || options.step != 2 * options.max_error->value;
+  if (options.step && of_its_own)
+    return invalid_argument("a step is given and a largest error: it can be one of them only");
+  return {};
+}
+
 }  // namespace
 
 Status check_options(const EncodeOptions& options) {
+  if (options.mode != Mode::kElp && options.mode != Mode::kBasis && options.mode != Mode::kLossless)
+    return invalid_argument("there is no such mode");
+  if (Status status = check_lossless(options); !status.ok()) return status;
   if (options.fine_bits < kMinBits || options.fine_bits > kMaxBits || options.coarse_bits < kMinBits ||
       options.coarse_bits > options.fine_bits) {
     return invalid_argument(
         "bits must be 1 to 24, and those of unimportant vertices at most those of important ones");
   }
+  if (options.effort < 1 || options.effort > 9) return invalid_argument("the effort must be 1 to 9");
+  if (Status status = check_basis(options); !status.ok()) return status;
   if (options.step && !(*options.step > 0 &&
                         std::isfinite(std::ldexp(*options.step, options.fine_bits - options.coarse_bits)))) {
     return invalid_argument("the step must be a positive length in the mesh's units, and finite");
@@ -62,9 +96,65 @@ Status check_options(const EncodeOptions& options) {
   return check_metadata(options.metadata);
 }
 
-bool needs_shape(const EncodeOptions& options) {
-  return options.predictor == Predictor::kPyramid || options.predictor == Predictor::kAuto;
+std::uint32_t frames_at_once(const EncodeOptions& options) {
+  if (options.mode != Mode::kBasis) return options.gop_frames;
+  return options.period_frames > 0 ? options.period_frames : effort_of(options.effort).period_frames;
 }
+
+Status resolve_max_error(EncodeOptions& options) {
+  double bound = options.max_error->value;
+  if (!options.box) {
+    if (!options.max_error->of_diagonal) return {};
+    return invalid_argument(
+        "a share of the diagonal needs input that can be read twice: write the error in the mesh's units");
+  }
+  if (options.max_error->of_diagonal) bound *= options.box->diagonal();
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(options.box->low()[axis]), std::abs(options.box->high()[axis])});
+  const double rounding = (largest + bound) * 0x1p-24;
+  if (bound <= 2 * rounding) {
+    return invalid_argument(
+        "the largest error is below what float32 has at coordinates of this size, about " +
+        std::to_string(2 * rounding));
+  }
+  options.max_error = ErrorBound{bound - rounding, false};
+  options.step = 2 * options.max_error->value;
+  return {};
+}
+
+bool needs_shape(const EncodeOptions& options) {
+  return options.mode != Mode::kElp || options.predictor == Predictor::kPyramid ||
+         options.predictor == Predictor::kAuto;
+}
+
+bool needs_box(const EncodeOptions& options) {
+  return options.mode != Mode::kLossless && (options.max_error || (!options.box && !options.step));
+}
+
+double shape_cell(const EncodeOptions& options, std::span<const float> first_frame) {
+  BoundingBox box;
+  box.extend(first_frame);
+  if (options.mode == Mode::kLossless)
+    return std::ldexp(box.largest_extent(), -lossless_shape_bits(first_frame));
+  const Result<Lattice> lattice =
+      lattice_over(options.box.value_or(box), options.fine_bits, options.coarse_bits, options.step);
+  return lattice ? lattice->step / 4 : 0;
+}
+
+namespace {
+
+/// A basis has at most a component for each coordinate of its frames; two bytes a coefficient are more than
+/// any takes that is worth it.
+void declare_basis(StreamLimits& limits, const EncodeOptions& options) {
+  limits.components = std::min({3 * frames_at_once(options), limits.vertices + 3, kMaxComponents});
+  limits.plan_bytes = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+      65536 + std::uint64_t{2} * limits.components * limits.vertices, kMaxChunkLength));
+  limits.packet_bytes = std::max(limits.packet_bytes, 256 + 24 * (limits.components + 1));
+  limits.decoder_memory = decoder_memory_with_plans(limits);
+}
+
+}  // namespace
 
 StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   StreamLimits limits;
@@ -78,6 +168,7 @@ StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   limits.mesh_bytes = most_mesh_bytes(limits, needs_shape(options));
   limits.decoder_memory =
       needs_shape(options) ? decoder_memory_with_shapes(limits) : decoder_memory_needed(limits);
+  if (options.mode == Mode::kBasis) declare_basis(limits, options);
   return limits;
 }
 

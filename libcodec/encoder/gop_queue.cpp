@@ -11,7 +11,7 @@ namespace tvg {
 namespace {
 
 /// A thread must not end by an exception; the only one that encoding knows is want of memory.
-Result<GopChunk> run_guarded(const GopQueue::Work& work) {
+Result<EncodedRun> run_guarded(const GopQueue::Work& work) {
   try {
     return work();
   } catch (const std::exception&) {
@@ -39,16 +39,16 @@ void GopQueue::start_thread() {
   }
 }
 
-void GopQueue::add(std::uint32_t frame_count, Work work) {
+void GopQueue::add(Work work) {
   if (threads_ > 1 && workers_.size() < threads_) start_thread();
   if (workers_.empty()) {
-    Entry entry{frame_count, {}, run_guarded(work)};
+    Entry entry{{}, run_guarded(work)};
     const std::lock_guard lock(mutex_);
     entries_.push_back(std::move(entry));
     return;
   }
   const std::lock_guard lock(mutex_);
-  entries_.push_back({frame_count, std::move(work), {}});
+  entries_.push_back({std::move(work), {}});
   waiting_.push_back(&entries_.back());
   work_added_.notify_one();
 }
@@ -73,11 +73,11 @@ void GopQueue::run() {
     ++at_work_;
     Work work = std::move(entry.work);
     lock.unlock();
-    Result<GopChunk> chunk = run_guarded(work);
+    Result<EncodedRun> done = run_guarded(work);
     work = nullptr;
     lock.lock();
     --at_work_;
-    entry.chunk = std::move(chunk);
+    entry.run = std::move(done);
     work_done_.notify_all();
   }
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include "modes/gop_encoder.hpp"
+
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -13,20 +15,12 @@
 
 namespace tvg {
 
-using GopChunk = std::vector<std::uint8_t>;
-
-/// GOPs on their way: encoded by several threads at a time, given back in the order they were added. One
-/// thread adds and takes.
+/// Runs of frames on their way: encoded by several threads at a time, given back in the order they were
+/// added. One thread adds and takes.
 class GopQueue {
  public:
   /// Encodes a GOP to its chunk; owns what it needs, which is freed as soon as it has run.
-  using Work = std::function<Result<GopChunk>()>;
-
-  /// A GOP that is encoded.
-  struct Done {
-    std::uint32_t frame_count = 0;
-    Result<GopChunk> chunk;
-  };
+  using Work = std::function<Result<EncodedRun>()>;
 
   /// With one thread a GOP is encoded by whoever adds it.
   explicit GopQueue(unsigned threads) : threads_(threads) {}
@@ -35,42 +29,41 @@ class GopQueue {
   ~GopQueue();
 
   /// Adds a GOP. Where that is full(), take() first.
-  void add(std::uint32_t frame_count, Work work);
+  void add(Work work);
 
   /// Whether more would only take memory: the threads are busy and one GOP waits, or so many are encoded and
   /// wait for one before them.
   bool full();
   /// The oldest GOP, if it is encoded.
-  std::optional<Done> take() {
+  std::optional<Result<EncodedRun>> take() {
     return take_when([] { return true; });
   }
   /// The same, but waits until it is, or until there is room for another.
-  std::optional<Done> take_or_make_room() {
+  std::optional<Result<EncodedRun>> take_or_make_room() {
     return take_when([this] { return front_done() || !full_now(); });
   }
   /// The same, but waits until it is; nothing only where there is none.
-  std::optional<Done> take_next() {
+  std::optional<Result<EncodedRun>> take_next() {
     return take_when([this] { return front_done(); });
   }
 
  private:
   struct Entry {
-    std::uint32_t frame_count = 0;
     Work work;
-    std::optional<Result<GopChunk>> chunk;
+    std::optional<Result<EncodedRun>> run;
   };
 
   template <class Ready>
-  std::optional<Done> take_when(Ready ready) {
+  std::optional<Result<EncodedRun>> take_when(Ready ready) {
     std::unique_lock lock(mutex_);
     if (entries_.empty()) return std::nullopt;
     work_done_.wait(lock, ready);
     if (!front_done()) return std::nullopt;
-    Done done{entries_.front().frame_count, std::move(*entries_.front().chunk)};
+    Result<EncodedRun> done = std::move(*entries_.front().run);
     entries_.pop_front();
     return done;
   }
-  bool front_done() const { return entries_.front().chunk.has_value(); }
+  bool front_done() const { return entries_.front().run.has_value(); }
   bool full_now() const;
   void start_thread();
   void run();

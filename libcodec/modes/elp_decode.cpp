@@ -66,11 +66,7 @@ Status ElpDecoder::take(Bytes packet, Predictor predictor) {
 
 // format-spec §7.6
 Status ElpDecoder::check_digest(Bytes packet) const {
-  const Result<std::uint64_t> expected = read_digest(channels_, packet);
-  if (!expected) return expected.error();
-  if (*expected == digest_.value()) return {};
-  return stream_error(ErrorCode::kDigestMismatch, "§7.6",
-                      {"the GOP decoded to other values than were encoded"});
+  return compare_digest(channels_, packet, digest_.value());
 }
 
 void ElpDecoder::copy_positions(void* positions, std::size_t stride) const {

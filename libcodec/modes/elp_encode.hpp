@@ -3,6 +3,7 @@
 #include "entropy/two_ended_coder.hpp"
 #include "modes/elp.hpp"
 #include "modes/elp_header.hpp"
+#include "modes/gop_chunk_encode.hpp"
 #include "modes/gop_input.hpp"
 #include "modes/gop_mesh.hpp"
 
@@ -11,12 +12,6 @@
 #include <vector>
 
 namespace tvg {
-
-/// A frame's packet.
-struct EncodedFrame {
-  Predictor predictor = Predictor::kSpace;
-  std::vector<std::uint8_t> content;
-};
 
 /// Encodes a GOP in mode elp, the mirror of ElpDecoder (format-spec §7).
 class ElpEncoder {

@@ -1,10 +1,10 @@
 #pragma once
 #include "base/byte_io.hpp"
+#include "base/stream_error.hpp"
 #include "container/gop_header.hpp"
+#include "modes/channels.hpp"
 #include "quantization/lattice.hpp"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,17 +12,6 @@
 #include <tvg/types.hpp>
 
 namespace tvg {
-
-/// Positions: the only channel so far (format-spec §3.5, §4.5.1).
-inline constexpr std::uint64_t kPositionsChannel = 1;
-
-/// The channels of a GOP's frames, by their numbers; the first is positions.
-struct Channels {
-  static constexpr std::size_t kMost = 256;
-
-  std::array<std::uint64_t, kMost> numbers = {kPositionsChannel};
-  std::size_t count = 1;
-};
 
 /// The predictors that frames of a GOP may have.
 class PredictorSet {
@@ -54,14 +43,6 @@ struct ElpHeader {
 std::vector<std::uint8_t> write_elp_header(PredictorSet predictors, const Lattice& lattice, Bytes flags);
 /// Reads it into `elp`. kUnsupported where a channel is not known that must be.
 Status read_elp_header(const GopHeader& header, ElpHeader& elp);
-
-/// The piece of a frame's packet that holds positions (§4.5.2).
-Result<Bytes> positions_piece(const Channels& channels, Bytes packet);
-
-/// The digest packet of a GOP (§4.5.3): that of positions.
-std::vector<std::uint8_t> write_digest(std::uint64_t positions);
-/// The digest of positions from a digest packet, which has those of all channels.
-Result<std::uint64_t> read_digest(const Channels& channels, Bytes packet);
 
 /// What a GOP's headers say of it; all vertices count as flagged.
 GopInfo gop_info(const GopHeader& header, const ElpHeader& elp);

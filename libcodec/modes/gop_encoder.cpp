@@ -1,49 +1,46 @@
 #include "modes/gop_encoder.hpp"
 
-#include "container/chunk.hpp"
-#include "container/gop_header.hpp"
-#include "container/packet.hpp"
+#include "modes/basis_encode.hpp"
 #include "modes/elp_encode.hpp"
-#include "modes/elp_header.hpp"
+#include "modes/lossless_encode.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace tvg {
 
-Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const GopMesh& mesh,
-                                             const StreamLimits& limits) {
-  const auto frame_count = static_cast<std::uint32_t>(input.frames.size());
-  ElpEncoder mode(input, mesh);
+namespace {
+
+/// A GOP in a mode that codes frame by frame.
+template <class ModeEncoder>
+Result<EncodedRun> encode_gop_in(const GopInput& input, const GopMesh& mesh, const StreamLimits& limits) {
+  ModeEncoder mode(input, mesh);
   std::vector<EncodedFrame> frames;
   for (const FramePositions& frame : input.frames) frames.push_back(mode.take(frame));
   const std::vector<std::uint8_t> fields = mode.finish();
-  const std::vector<std::uint8_t> header = write_gop_header({.mesh = mesh.coded.id,
-                                                             .first_frame = input.first_frame,
-                                                             .frame_count = frame_count,
-                                                             .packet_count = frame_count + 1,
-                                                             .planes = {},
-                                                             .mode = kModeElp,
-                                                             .fields = fields});
-  ByteWriter gop;
-  const std::uint32_t header_checksum = write_packet(gop, 0, packet_kind::kHeader, header);
-  std::size_t largest_packet = header.size();
-  std::uint32_t packet_number = 0;
-  for (const EncodedFrame& frame : frames) {
-    largest_packet = std::max(largest_packet, frame.content.size());
-    write_packet(gop, packet_seed(header_checksum, ++packet_number), packet_kind::frame(frame.predictor),
-                 frame.content);
-  }
-  write_packet(gop, packet_seed(header_checksum, ++packet_number), packet_kind::kDigest,
-               write_digest(mode.digest()));
+  GopHeader header;
+  header.mesh = mesh.coded.id;
+  header.first_frame = input.first_frame;
+  header.mode = static_cast<std::uint64_t>(input.mode);
+  header.fields = fields;
+  Result<EncodedGop> gop = write_gop(header, frames, mode.digest(), limits);
+  if (!gop) return gop.error();
+  EncodedRun run;
+  run.gops.push_back(std::move(*gop));
+  return run;
+}
 
-  if (largest_packet > limits.packet_bytes || gop.data().size() > kMaxChunkLength) {
-    return Error{ErrorCode::kLimitExceeded,
-                 "the GOP is larger than a chunk can be: use fewer frames per GOP",
-                 {},
-                 input.first_frame,
-                 "§4.1"};
+}  // namespace
+
+Result<EncodedRun> encode_run(const GopInput& input, const GopMesh& mesh, const StreamLimits& limits) {
+  switch (input.mode) {
+    case Mode::kBasis:
+      return encode_basis(input, mesh, limits);
+    case Mode::kLossless:
+      return encode_gop_in<LosslessEncoder>(input, mesh, limits);
+    case Mode::kElp:
+      break;
   }
-  return write_chunk(kGopChunk, false, gop.data());
+  return encode_gop_in<ElpEncoder>(input, mesh, limits);
 }
 
 }  // namespace tvg

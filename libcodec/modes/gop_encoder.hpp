@@ -1,4 +1,5 @@
 #pragma once
+#include "modes/gop_chunk_encode.hpp"
 #include "modes/gop_input.hpp"
 #include "modes/gop_mesh.hpp"
 
@@ -9,9 +10,15 @@
 
 namespace tvg {
 
-/// Encodes one GOP to its whole chunk (format-spec §4.5): lattice → prediction → residuals → packets. Fails
-/// with kLimitExceeded when a packet is larger than `limits` allow.
-Result<std::vector<std::uint8_t>> encode_gop(const GopInput& input, const GopMesh& mesh,
-                                             const StreamLimits& limits);
+/// The chunks of a run of frames that are encoded together.
+struct EncodedRun {
+  std::vector<std::uint8_t> plan;  ///< what the GOPs share; empty where that is nothing
+  std::vector<EncodedGop> gops;
+  double largest_error = 0;  ///< in mode basis: of a coordinate, in the mesh's units
+};
+
+/// Encodes a run of frames (format-spec §4.5, §4.9): a GOP in mode elp, a period in mode basis. Fails with
+/// kLimitExceeded when a packet or a plan is larger than `limits` allow.
+Result<EncodedRun> encode_run(const GopInput& input, const GopMesh& mesh, const StreamLimits& limits);
 
 }  // namespace tvg

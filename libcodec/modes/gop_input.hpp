@@ -1,7 +1,9 @@
 #pragma once
+#include "basis/basis_fit_encode.hpp"
 #include "quantization/lattice.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,13 +11,24 @@
 
 namespace tvg {
 
-/// One GOP to be encoded.
+/// How a period is encoded in mode basis.
+struct BasisInput {
+  std::uint32_t gop_frames = 32;  ///< of the GOPs that the period is cut into
+  /// In steps of the lattice: what no coordinate may be off by more. Absent: the error is that of rounding to
+  /// the lattice, on average.
+  std::optional<double> largest_error;
+  FitEffort effort;
+};
+
+/// Frames to be encoded together: a GOP, or in mode basis a period.
 struct GopInput {
   std::span<const FramePositions> frames;  ///< [frame][vertex][xyz], in the order of the input mesh
-  std::uint64_t first_frame = 0;           ///< number of its first frame in the sequence it comes from
+  Mode mode = Mode::kElp;
+  std::uint64_t first_frame = 0;  ///< number of its first frame in the sequence it comes from
   Lattice lattice;
   std::vector<std::uint8_t> flags;  ///< [vertex]: 1 important; not looked at unless the lattice is hybrid
   Predictor predictor = Predictor::kElp;
+  BasisInput basis;  ///< of mode basis
 };
 
 }  // namespace tvg

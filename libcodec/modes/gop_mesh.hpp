@@ -1,6 +1,7 @@
 #pragma once
 #include "connectivity/mesh_coder.hpp"
 #include "container/mesh_payload.hpp"
+#include "planes/reference_shape.hpp"
 #include "prediction/pyramid.hpp"
 
 #include <cstdint>
@@ -14,6 +15,7 @@ namespace tvg {
 struct GopMesh {
   CodedMesh coded;
   std::optional<Pyramid> pyramid;  ///< where the mesh has a reference shape (§5.4)
+  ReferenceShape shape;            ///< which the pyramid is made of; empty where there is none
 };
 
 /// Decodes a mesh from the sections of its chunk (format-spec §4.3). `limits` are the stream's:

@@ -19,11 +19,12 @@ Result<GopMesh> decode_gop_mesh(const MeshLayout& layout, std::uint32_t id, cons
   }
   const Result<std::vector<Face>> faces = faces_by_traversal(mesh.coded);
   if (!faces) return faces.error();
-  const Result<ReferenceShape> shape = decode_reference_shape(layout.shape, *faces, layout.vertex_count);
+  Result<ReferenceShape> shape = decode_reference_shape(layout.shape, *faces, layout.vertex_count);
   if (!shape) return shape.error();
   Result<Pyramid> pyramid = build_pyramid(*faces, layout.vertex_count, shape->indices, shape->neighbours);
   if (!pyramid) return pyramid.error();
   mesh.pyramid = std::move(*pyramid);
+  mesh.shape = std::move(*shape);
   return mesh;
 }
 

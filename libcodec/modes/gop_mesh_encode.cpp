@@ -2,9 +2,9 @@
 
 #include "planes/reference_shape_encode.hpp"
 #include "quantization/lattice.hpp"
-#include "quantization/lattice_over_encode.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <tvg/geometry.hpp>
@@ -13,12 +13,23 @@ namespace tvg {
 
 namespace {
 
+/// A lattice from the smallest corner of the box on.
+Lattice lattice_of(const BoundingBox& box, double cell) {
+  Lattice lattice;
+  lattice.origin = box.low();
+  lattice.step = cell;
+  if (!(cell > 0)) lattice.step = std::max(1.0, box.largest_extent());
+  while (std::ldexp(lattice.step, kMaxBits) <= box.largest_extent()) lattice.step *= 2;
+  lattice.fine_bits = kMinBits;
+  while (std::ldexp(lattice.step, lattice.fine_bits) <= box.largest_extent()) ++lattice.fine_bits;
+  return lattice;
+}
+
 ReferenceShape shape_of(const CodedMesh& mesh, std::span<const float> frame, const Lattice& lattice) {
   ReferenceShape shape;
   shape.origin = lattice.origin;
   shape.step = lattice.step;
   shape.bits = lattice.fine_bits;
-  shape.neighbours = kMaxPyramidNeighbours;
   shape.indices.resize(mesh.order.size());
   for (std::size_t v = 0; v < shape.indices.size(); ++v) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -38,12 +49,12 @@ EncodedGopMesh finish_mesh(EncodedMesh encoded) {
   return result;
 }
 
-Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, int bits) {
+Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, double cell,
+                                   std::uint32_t neighbours) {
   BoundingBox box;
   box.extend(first_frame);
-  const Result<Lattice> lattice = lattice_over(box, bits, bits, {});
-  if (!lattice) return lattice.error();
-  const ReferenceShape shape = shape_of(encoded.coded, first_frame, *lattice);
+  ReferenceShape shape = shape_of(encoded.coded, first_frame, lattice_of(box, cell));
+  shape.neighbours = neighbours;
   const Result<std::vector<Face>> faces = faces_by_traversal(encoded.coded);
   if (!faces) return faces.error();
   Result<Pyramid> pyramid =
@@ -53,6 +64,7 @@ Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> f
   result.payload = mesh_payload(encoded, encode_reference_shape(shape, *faces));
   result.mesh.coded = std::move(encoded.coded);
   result.mesh.pyramid = std::move(*pyramid);
+  result.mesh.shape = std::move(shape);
   return result;
 }
 

@@ -16,8 +16,9 @@ struct EncodedGopMesh {
 
 /// Without a reference shape.
 EncodedGopMesh finish_mesh(EncodedMesh encoded);
-/// With one: the first frame, positions [vertex][xyz] in the order of the input, on a lattice of so many bits
-/// over its own box.
-Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, int bits);
+/// With one: the first frame, positions [vertex][xyz] in the order of the input, on a lattice of such cells
+/// or, where it would have too many, of larger ones; vertices are predicted from so many neighbours.
+Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, double cell,
+                                   std::uint32_t neighbours);
 
 }  // namespace tvg

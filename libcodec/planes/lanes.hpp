@@ -35,6 +35,9 @@ class Lanes {
   friend Lanes operator-(Lanes a, Lanes b) {
     return Lanes(a.lanes_ - b.lanes_);
   }
+  friend Lanes operator*(Lanes a, Lanes b) {
+    return Lanes(a.lanes_ * b.lanes_);
+  }
   friend Lanes operator&(Lanes a, Lanes b) {
     return Lanes(a.lanes_ & b.lanes_);
   }
@@ -49,6 +52,9 @@ class Lanes {
   }
   friend Lanes operator>>(Lanes a, int bits) {
     return Lanes(a.lanes_ >> bits);
+  }
+  friend Lanes operator>(Lanes a, Lanes b) {
+    return Lanes(a.lanes_ > b.lanes_);
   }
   friend Lanes operator>(Lanes a, std::int32_t b) {
     return Lanes(a.lanes_ > b);
@@ -74,6 +80,9 @@ class Lanes {
   friend Lanes operator-(Lanes a, Lanes b) {
     return each([&](std::size_t i) { return a[i] - b[i]; });
   }
+  friend Lanes operator*(Lanes a, Lanes b) {
+    return each([&](std::size_t i) { return a[i] * b[i]; });
+  }
   friend Lanes operator&(Lanes a, Lanes b) {
     return each([&](std::size_t i) { return a[i] & b[i]; });
   }
@@ -88,6 +97,9 @@ class Lanes {
   }
   friend Lanes operator>>(Lanes a, int bits) {
     return each([&](std::size_t i) { return a[i] >> bits; });
+  }
+  friend Lanes operator>(Lanes a, Lanes b) {
+    return each([&](std::size_t i) { return a[i] > b[i] ? -1 : 0; });
   }
   friend Lanes operator>(Lanes a, std::int32_t b) {
     return each([&](std::size_t i) { return a[i] > b ? -1 : 0; });
@@ -120,6 +132,20 @@ inline Lanes thrice(Lanes x) {
 inline Lanes abs(Lanes x) {
   const Lanes sign = x >> 31;
   return (x ^ sign) - sign;
+}
+
+inline std::int32_t sum_of(Lanes x) {
+  return x[0] + x[1] + x[2] + x[3];
+}
+
+/// The smaller and the larger of two, lane by lane.
+inline Lanes min(Lanes a, Lanes b) {
+  const Lanes above = a > b;
+  return a ^ ((a ^ b) & above);
+}
+inline Lanes max(Lanes a, Lanes b) {
+  const Lanes above = a > b;
+  return b ^ ((a ^ b) & above);
 }
 
 /// Halves that are rounded towards zero.

@@ -57,6 +57,13 @@ template <class Coder>
   return negative ? -size : size;
 }
 
+/// About how many bits that takes.
+constexpr int escaped_bits(std::int32_t residual) {
+  const auto beyond =
+      static_cast<std::uint32_t>(std::max((residual < 0 ? -residual : residual) - kLargest, 1));
+  return 2 * std::bit_width(beyond);
+}
+
 /// What a residual's symbol does not say; `high` is the symbol less kLargest. Around large residuals the low
 /// bits are all alike: `raw_bits` of them, up to 15, go without a model. Returns the residual; a decoder
 /// ignores the last argument.

@@ -132,6 +132,9 @@ class Joiner {
   Status write_gop_start(const JoinInputReader& reader) {
     if (Status status = writer_.write_mesh_chunk(reader.mesh()); !status.ok()) return status;
     report_.meshes = writer_.meshes();
+    for (const Bytes chunk : reader.planes()) {
+      if (Status status = writer_.write_plan_chunk(chunk); !status.ok()) return status;
+    }
     return writer_.write_gop_chunk(reader.gop_start(), reader.gop_frames());
   }
 

@@ -1,6 +1,7 @@
 #include "streams/join_input.hpp"
 
 #include "base/stream_error.hpp"
+#include "container/stream_writer.hpp"
 
 #include <utility>
 
@@ -62,7 +63,8 @@ void JoinInputReader::use(ChunkReader::Event event) {
     case ChunkReader::Event::kMetadata:
       metadata_ = reader_.take_metadata();
       break;
-    case ChunkReader::Event::kMesh: {
+    case ChunkReader::Event::kMesh:
+    case ChunkReader::Event::kPlan: {
       std::vector<std::uint8_t> chunk(gop_start_);
       chunk.insert(chunk.end(), raw.begin(), raw.end());
       reader_.keep(std::make_shared<const std::vector<std::uint8_t>>(std::move(chunk)));
@@ -72,10 +74,17 @@ void JoinInputReader::use(ChunkReader::Event event) {
       gop_start_.insert(gop_start_.end(), raw.begin(), raw.end());
       gop_frames_ = reader_.gop().frame_count;
       gop_mesh_ = reader_.gop().mesh;
+      gop_planes_ = plane_ids(reader_.gop());
       break;
     default:
       break;
   }
+}
+
+std::vector<Bytes> JoinInputReader::planes() const {
+  std::vector<Bytes> chunks;
+  for (const std::uint32_t id : gop_planes_) chunks.push_back(kept(reader_.plans(), id));
+  return chunks;
 }
 
 Status JoinInputReader::begin() {

@@ -28,9 +28,9 @@ class JoinInputReader {
   const StreamLimits& limits() const { return reader_.head().limits; }
   const Metadata& metadata() const { return metadata_; }
   /// The chunk of the mesh that the GOP names.
-  Bytes mesh() const {
-    return *static_cast<const std::vector<std::uint8_t>*>(reader_.meshes().find(gop_mesh_)->content.get());
-  }
+  Bytes mesh() const { return kept(reader_.meshes(), gop_mesh_); }
+  /// The chunks of the planes that the GOP names.
+  std::vector<Bytes> planes() const;
   /// Of the GOP: its chunk from the first byte to the end of its header packet, and its frames.
   Bytes gop_start() const { return gop_start_; }
   std::uint32_t gop_frames() const { return gop_frames_; }
@@ -41,6 +41,9 @@ class JoinInputReader {
   /// The next event that is neither a want of bytes nor anything wrong; what is wrong is an error.
   Result<ChunkReader::Event> next();
   void use(ChunkReader::Event event);
+  static Bytes kept(const ChunkWindow& window, std::uint32_t id) {
+    return *static_cast<const std::vector<std::uint8_t>*>(window.find(id)->content.get());
+  }
   Error located(Error error) const;
 
   JoinInput input_;
@@ -48,6 +51,7 @@ class JoinInputReader {
   std::vector<std::uint8_t> piece_;
   Metadata metadata_;
   std::uint32_t gop_mesh_ = 0;
+  std::vector<std::uint32_t> gop_planes_;
   std::vector<std::uint8_t> gop_start_;  ///< or what was read last of another chunk
   std::uint32_t gop_frames_ = 0;
   std::uint64_t chunks_passed_over_ = 0;

@@ -69,9 +69,16 @@ class StreamSplitter::State {
         part_.mesh = reader_.mesh_id();
         append();
         return true;
+      case Event::kPlan:
+        part_.kind = StreamPart::Kind::kPlan;
+        part_.mesh = reader_.plan().mesh;
+        part_.planes = {reader_.plan_id()};
+        append();
+        return true;
       case Event::kGop:
         part_.kind = StreamPart::Kind::kGop;
         part_.mesh = reader_.gop().mesh;
+        part_.planes = plane_ids(reader_.gop());
         part_.frame_count = reader_.gop().frame_count;
         part_.first_frame = reader_.gop().first_frame;
         append();
@@ -110,7 +117,7 @@ class StreamSplitter::State {
     }
     const ChunkKind kind = kind_of(header);
     part_ = StreamPart();
-    if (kind == ChunkKind::kGop || kind == ChunkKind::kMesh) append();
+    if (kind == ChunkKind::kGop || kind == ChunkKind::kMesh || kind == ChunkKind::kPlan) append();
     return false;
   }
 
@@ -176,6 +183,10 @@ Status StreamAssembler::begin(const StreamLimits& limits, const Metadata& metada
 
 Status StreamAssembler::write_mesh(std::span<const std::uint8_t> chunk) {
   return state_->writer.write_mesh_chunk(chunk);
+}
+
+Status StreamAssembler::write_plan(std::span<const std::uint8_t> chunk) {
+  return state_->writer.write_plan_chunk(chunk);
 }
 
 Status StreamAssembler::write_gop(std::span<const std::uint8_t> chunk, std::uint32_t frame_count) {

@@ -1,8 +1,11 @@
 #include "base/stream_error.hpp"
 #include "container/chunk_reader.hpp"
+#include "modes/basis_plan.hpp"
 #include "modes/elp_header.hpp"
+#include "modes/lossless_header.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 #include <string>
 #include <utility>
@@ -79,6 +82,9 @@ class Surveyor {
         mesh_ids_.push_back(reader_.mesh_id());
         break;
       }
+      case ChunkReader::Event::kPlan:
+        take_plan();
+        break;
       case ChunkReader::Event::kGop:
         take_gop();
         reader_.pass_over();
@@ -100,20 +106,63 @@ class Surveyor {
 
   void take_gop() {
     const GopHeader& header = reader_.gop();
-    ElpHeader elp;
-    const Status status = read_elp_header(header, elp);
+    Result<GopInfo> read = info_of(header);
     frames_ += header.frame_count;
-    if (!status.ok()) {
-      find(status.error());
+    if (!read) {
+      find(std::move(read.error()));
       return;
     }
-    GopInfo gop = gop_info(header, elp);
+    GopInfo& gop = *read;
     gop.first_frame = frames_ - header.frame_count;
     gop.bytes = reader_.chunk().total_size();
     gop.header_bytes = reader_.content().size() - gop.flag_bytes;
+    note_plan_use(header, gop);
     result_.gops.push_back(gop);
     const auto mesh = std::find(mesh_ids_.rbegin(), mesh_ids_.rend(), header.mesh);
     result_.gop_meshes.push_back(static_cast<std::uint32_t>(mesh_ids_.rend() - mesh - 1));
+  }
+
+  /// Keeps what the plan says of the GOPs that name it.
+  void take_plan() {
+    BasisHeader basis;
+    ByteReader fields(reader_.plan().fields);
+    if (const Fault fault = read_basis_header(fields, result_.head.limits, basis)) {
+      reader_.reject(fault.code);
+      find(error_of(fault));
+      return;
+    }
+    basis.scales = basis.flags = {};
+    result_.plans.push_back({.components = basis.components, .bytes = reader_.chunk().total_size()});
+    plan_ids_.push_back(reader_.plan_id());
+    reader_.keep(std::make_shared<const BasisHeader>(basis));
+  }
+
+  /// GOPs of a basis may lie apart where the chunk of its planes came again: each chunk has its own.
+  void note_plan_use(const GopHeader& header, const GopInfo& gop) {
+    if (gop.mode != Mode::kBasis) return;
+    const std::uint32_t id = ByteReader(header.planes).u32();
+    const auto found = std::find(plan_ids_.rbegin(), plan_ids_.rend(), id);
+    if (found == plan_ids_.rend()) return;
+    SurveyedPlan& plan = result_.plans[static_cast<std::size_t>(plan_ids_.rend() - found - 1)];
+    if (plan.frame_count == 0) plan.first_frame = gop.first_frame;
+    plan.frame_count += gop.frame_count;
+  }
+
+  Result<GopInfo> info_of(const GopHeader& header) const {
+    if (header.mode == kModeBasis) {
+      const auto* const plan =
+          header.plane_count() == 1 ? reader_.plans().find(ByteReader(header.planes).u32()) : nullptr;
+      if (plan == nullptr) return malformed("§4.5.1", "a GOP in mode basis names other than one plan");
+      return basis_gop_info(header, *std::static_pointer_cast<const BasisHeader>(plan->content));
+    }
+    if (header.mode == kModeLossless) {
+      LosslessHeader lossless;
+      if (Status status = read_lossless_header(header, lossless); !status.ok()) return status.error();
+      return lossless_gop_info(header);
+    }
+    ElpHeader elp;
+    if (Status status = read_elp_header(header, elp); !status.ok()) return status.error();
+    return gop_info(header, elp);
   }
 
   void find(Error error) {
@@ -127,6 +176,7 @@ class Surveyor {
   std::vector<std::uint8_t> piece_;
   StreamSurvey result_;
   std::vector<std::uint32_t> mesh_ids_;  ///< of the meshes of the result
+  std::vector<std::uint32_t> plan_ids_;  ///< of the plans of the result
   std::uint64_t frames_ = 0;
 };
 

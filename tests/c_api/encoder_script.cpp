@@ -28,13 +28,15 @@ bool changes_nothing(tvg_code code) {
          code == TVG_ERROR_INVALID_INPUT || code == TVG_ERROR_LIMIT_EXCEEDED;
 }
 
-/// Whether a decoded frame is where it should be, but for rounding to float32.
-bool within_half_a_step(const std::vector<float>& original, const std::vector<float>& decoded,
-                        const std::vector<std::uint8_t>& flags, const tvg_gop_info& gop) {
+/// Whether a decoded frame is where it should be, but for rounding to float32: within half a step or, of a
+/// basis, within the largest error that was reported.
+bool within_bounds(const std::vector<float>& original, const std::vector<float>& decoded,
+                   const std::vector<std::uint8_t>& flags, const tvg_gop_info& gop, double largest_error) {
   for (std::size_t i = 0; i < original.size(); ++i) {
     const double half = (flags[i / 3] != 0 ? gop.fine_step : gop.coarse_step) / 2;
-    const double rounding = std::abs(double{original[i]}) * 0x1p-22 + half * 1e-6 + 0x1p-149;
-    if (!(std::abs(double{decoded[i]} - double{original[i]}) <= half + rounding)) return false;
+    const double bound = gop.mode == TVG_MODE_BASIS ? largest_error : half;
+    const double rounding = (std::abs(double{original[i]}) + bound) * 0x1p-22 + bound * 1e-6 + 0x1p-149;
+    if (!(std::abs(double{decoded[i]} - double{original[i]}) <= bound + rounding)) return false;
   }
   return true;
 }
@@ -85,6 +87,7 @@ void EncoderScript::create(unsigned how) {
   vertex_count_ = 0;
   lost_ = ended_ = false;
   reordered_ = options.reorder != 0;
+  max_error_ = options.mode == TVG_MODE_BASIS ? options.max_error : 0;
   tvg_encoder* made = nullptr;
   promise(tvg_encoder_create(&options, take, this, &made) == TVG_OK && made != nullptr, "create makes one");
   encoder_.reset(made);
@@ -116,6 +119,12 @@ tvg_encoder_options EncoderScript::read_options(unsigned how) {
     for (double& side : options.box_low) side = number();
     for (double& side : options.box_high) side = number();
     options.max_meshes = byte() % 4u;
+    if ((how & 4) == 0) options.mode = byte() % 4u;
+  }
+  if (options.mode == TVG_MODE_BASIS) {
+    options.period_frames = byte() % 12u;
+    options.effort = byte() % 11u;
+    if ((byte() & 1u) != 0) options.max_error = number();
   }
   return options;
 }
@@ -185,7 +194,10 @@ void EncoderScript::finish() {
   if (code != TVG_OK) return answered(code);
   promise(!lost_ && !ended_ && !frames_.empty(), "only a stream with frames is finished, and once");
   promise(report.frames == frames_.size() && report.bytes == stream_.size(), "the report is true");
+  promise(max_error_ == 0 || report.largest_error <= max_error_ * (1 + 1e-9),
+          "no coordinate is off by more than was asked for");
   ended_ = true;
+  largest_error_ = report.largest_error;
   auto decoded = decode(stream_, reordered_ ? nullptr : &frames_);
   if (!decoded) return;
   promise(decoded->size() == frames_.size(), "every frame comes back");
@@ -213,8 +225,8 @@ std::optional<std::vector<std::vector<float>>> EncoderScript::decode(
     if (originals != nullptr && frames.size() < originals->size()) {
       const std::vector<float>& original = (*originals)[frames.size()];
       promise(original.size() == positions.size() &&
-                  within_half_a_step(original, positions, flags, *decoder.gop()),
-              "no coordinate is off by more than half a step");
+                  within_bounds(original, positions, flags, *decoder.gop(), largest_error_),
+              "no coordinate is off by more than is said");
     }
     frames.push_back(std::move(positions));
   }

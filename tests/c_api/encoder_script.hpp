@@ -12,7 +12,8 @@ namespace tvg::test {
 
 /// The encoding half of the C interface, called as a script of bytes says: in any order, with good and with
 /// bad arguments. What a call returns is held against what was called before, and a stream that was finished
-/// against the frames that were taken: it decodes, and no coordinate is off by more than half a step.
+/// against the frames that were taken: it decodes, and no coordinate is off by more than half a step or, in
+/// mode basis, than the report says.
 class EncoderScript {
  public:
   /// The bytes must outlive the script. Where they end, what they are read for is 0.
@@ -67,6 +68,8 @@ class EncoderScript {
   std::vector<std::uint8_t> stream_;
   unsigned writes_left_ = ~0u;  ///< then the sink gives up
   bool reordered_ = false;
+  double max_error_ = 0;      ///< asked for, of a basis; 0 where it was not
+  double largest_error_ = 0;  ///< of the stream finished last, as its report has it
   bool lost_ = false;
   bool ended_ = false;
   std::uint32_t vertex_count_ = 0;

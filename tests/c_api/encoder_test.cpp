@@ -1,6 +1,7 @@
 #include "c_api_toolbox.hpp"
 
 #include <array>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <random>
@@ -47,7 +48,9 @@ OwnedEncoder make(const tvg_encoder_options& options, tvg_sink sink, void* user)
   return OwnedEncoder(encoder);
 }
 
-Stream encode_in_c(const Sequence& sequence, const tvg_encoder_options& options) {
+/// `largest_error` becomes what the report says.
+Stream encode_in_c(const Sequence& sequence, const tvg_encoder_options& options,
+                   double* largest_error = nullptr) {
   Stream stream;
   const OwnedEncoder encoder = make(options, append, &stream);
   const Mesh& mesh = sequence.mesh;
@@ -63,6 +66,7 @@ Stream encode_in_c(const Sequence& sequence, const tvg_encoder_options& options)
   EXPECT_EQ(tvg_encoder_finish(encoder.get(), &report), TVG_OK);
   EXPECT_EQ(report.bytes, stream.size());
   EXPECT_EQ(report.frames, sequence.frames.size());
+  if (largest_error != nullptr) *largest_error = report.largest_error;
   return stream;
 }
 
@@ -82,6 +86,127 @@ TEST(CEncoder, BytesAreThoseOfEncodeAndDoNotDependOnThreads) {
     options.threads = threads;
     EXPECT_EQ(encode_in_c(sequence, options), encode_sequence(sequence, expected)) << threads;
   }
+}
+
+TEST(CEncoder, EncodesWithoutLossAndTheDecoderSaysSo) {
+  Sequence sequence = toy();
+  sequence.metadata.clear();
+  EncodeOptions expected;
+  expected.gop_frames = 5;
+  expected.mode = Mode::kLossless;
+  tvg_encoder_options options = usual();
+  options.mode = TVG_MODE_LOSSLESS;
+  const Stream stream = encode_in_c(sequence, options);
+  EXPECT_EQ(stream, encode_sequence(sequence, expected));
+  std::unique_ptr<tvg_decoder, decltype(&tvg_decoder_destroy)> decoder(tvg_decoder_create(nullptr),
+                                                                       &tvg_decoder_destroy);
+  ASSERT_EQ(tvg_decoder_push(decoder.get(), stream.data(), stream.size()), TVG_OK);
+  while (tvg_decoder_poll(decoder.get()) != TVG_EVENT_FRAME) {
+  }
+  tvg_gop_info gop = {};
+  gop.struct_size = sizeof gop;
+  ASSERT_EQ(tvg_decoder_get_gop(decoder.get(), &gop), TVG_OK);
+  EXPECT_EQ(gop.mode, std::uint32_t{TVG_MODE_LOSSLESS});
+  EXPECT_EQ(gop.fine_step, 0);
+  FramePositions back(sequence.frames[0].size());
+  ASSERT_EQ(tvg_decoder_copy_positions(decoder.get(), back.data(), 4 * back.size(), 12), TVG_OK);
+  EXPECT_EQ(std::memcmp(back.data(), sequence.frames[0].data(), 4 * back.size()), 0);
+}
+
+EncodeOptions basis_of_toy() {
+  EncodeOptions expected;
+  expected.mode = Mode::kBasis;
+  expected.gop_frames = 5;
+  expected.period_frames = 9;
+  expected.effort = 3;
+  return expected;
+}
+
+tvg_encoder_options basis_of_toy_in_c() {
+  tvg_encoder_options options = usual();
+  options.mode = TVG_MODE_BASIS;
+  options.period_frames = 9;
+  options.effort = 3;
+  return options;
+}
+
+TEST(CEncoder, EncodesABasisWithItsPeriodEffortAndLargestError) {
+  Sequence sequence = toy();
+  sequence.metadata.clear();
+  EncodeOptions expected = basis_of_toy();
+  tvg_encoder_options options = basis_of_toy_in_c();
+  expected.box = box_around(sequence.frames);
+  options.has_box = 1;
+  std::copy(expected.box->low().begin(), expected.box->low().end(), options.box_low);
+  std::copy(expected.box->high().begin(), expected.box->high().end(), options.box_high);
+  EXPECT_EQ(encode_in_c(sequence, options), encode_sequence(sequence, expected));
+  options.max_error = 0.01 * expected.box->diagonal();
+  double reported = 0;
+  const Stream stream = encode_in_c(sequence, options, &reported);
+  EXPECT_GT(reported, 0);
+  EXPECT_LE(reported, options.max_error);
+  for (const DecodedFrame& frame : decode_stream(stream).frames) {
+    const FramePositions& original = sequence.frames[frame.number];
+    for (std::size_t i = 0; i < original.size(); ++i)
+      ASSERT_LE(std::abs(double{frame.positions[i]} - double{original[i]}),
+                reported + std::abs(original[i]) * 0x1p-22);
+  }
+}
+
+TEST(CEncoder, AnEffortOf0IsTheUsualOneAndOptionsOutOfRangeAreRefused) {
+  const Sequence sequence = toy();
+  tvg_encoder_options options = basis_of_toy_in_c();
+  EXPECT_EQ(usual().effort, 5u);
+  options.effort = 0;
+  const Stream stream = encode_in_c(sequence, options);
+  options.effort = 5;
+  EXPECT_EQ(encode_in_c(sequence, options), stream);
+  const auto refused = [&sequence](tvg_encoder_options wrong) {
+    Stream ignored;
+    const OwnedEncoder encoder = make(wrong, append, &ignored);
+    const Mesh& mesh = sequence.mesh;
+    return tvg_encoder_set_mesh(encoder.get(), mesh.vertex_count, corners(mesh),
+                                static_cast<std::uint32_t>(mesh.faces.size())) == TVG_ERROR_INVALID_ARGUMENT;
+  };
+  EXPECT_FALSE(refused(options));
+  tvg_encoder_options wrong = options;
+  wrong.effort = 10;
+  EXPECT_TRUE(refused(wrong));
+  wrong = options;
+  wrong.period_frames = 65537;
+  EXPECT_TRUE(refused(wrong));
+  for (const double error :
+       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    wrong = options;
+    wrong.max_error = error;
+    EXPECT_TRUE(refused(wrong)) << error;
+  }
+  wrong = options;
+  wrong.max_error = wrong.step = 0.1;
+  EXPECT_TRUE(refused(wrong));
+}
+
+TEST(CEncoder, OfABasisTheDecoderSaysHowManyComponentsItHasAndUsesAsManyAsItIsTold) {
+  const Sequence sequence = toy();
+  const Stream stream = encode_in_c(sequence, basis_of_toy_in_c());
+  const auto first_frame = [&](std::uint32_t components, tvg_gop_info& gop) {
+    StreamDecoder decoder;
+    EXPECT_EQ(decoder.use_components(components), TVG_OK);
+    EXPECT_EQ(decoder.push(stream.data(), stream.size()), TVG_OK);
+    tvg_event event = decoder.poll();
+    while (event != TVG_EVENT_FRAME && event != TVG_EVENT_NEED_BYTES) event = decoder.poll();
+    EXPECT_EQ(event, TVG_EVENT_FRAME);
+    gop = *decoder.gop();
+    EXPECT_EQ(decoder.frame()->predictor, std::uint32_t{TVG_PREDICTOR_ROWS});
+    return current_c_frame(decoder).positions;
+  };
+  tvg_gop_info gop = {};
+  const std::vector<float> whole = first_frame(kMaxComponents, gop);
+  EXPECT_EQ(gop.mode, std::uint32_t{TVG_MODE_BASIS});
+  EXPECT_GT(gop.components, 4u);
+  EXPECT_EQ(first_frame(gop.components, gop), whole);
+  EXPECT_NE(first_frame(4, gop), whole);
+  EXPECT_EQ(tvg_decoder_use_components(nullptr, 1), TVG_ERROR_INVALID_ARGUMENT);
 }
 
 TEST(CEncoder, WhatComesOutOfTurnIsAWrongStateAndChangesNothing) {

@@ -127,6 +127,22 @@ TEST_F(ToolTest, StepBoundsTheErrorInUnitsOfTheMesh) {
             0.001 * 1.001);
 }
 
+TEST_F(ToolTest, LosslessGivesTheCacheBackByteForByteAndLeavesNothingToChoose) {
+  good("tvg encode hand.obj hand.pc2 -o hand.tvg --lossless --gop 5");
+  good("tvg decode hand.tvg -o back.pc2 && cmp hand.pc2 back.pc2 && tvg verify -q hand.tvg");
+  const auto info = json("tvg info hand.tvg --json --bits");
+  EXPECT_EQ(info["gops"][0]["mode"], "lossless");
+  EXPECT_EQ(info["gops"][0]["fine_bits"], 32);
+  EXPECT_EQ(info["damages"], 0);
+  EXPECT_GT(info["bytes_by_purpose"]["residuals_x"], 0);
+  EXPECT_NE(good("tvg info hand.tvg").out.find(" lossless"), std::string::npos);
+  for (const char* const option :
+       {"--bits 12", "--step 0.1", "--predictor auto", "--mode elp", "--important 20%", "--measure curv"}) {
+    expect_failure(std::string("tvg encode hand.obj hand.pc2 -o no.tvg --lossless ") + option, 1,
+                   "--lossless");
+  }
+}
+
 TEST_F(ToolTest, ReorderIsSmallerAndSaysSo) {
   good("tvg encode hand.obj hand.pc2 -o kept.tvg && tvg encode hand.obj hand.pc2 -o free.tvg --reorder");
   EXPECT_LT(folder_.read("free.tvg").size(), folder_.read("kept.tvg").size());

@@ -78,6 +78,38 @@ TEST_F(JoinTest, OtherConnectivityAndOptionsJoinToo) {
   good("tvg decode joined.tvg -o g_%02d.ply --frames 6-9 && cmp g_00.ply f/06.ply");
 }
 
+TEST_F(JoinTest, CutsInsideAPeriodTakeThePlanesAlong) {
+  good("tvg encode hand.obj hand.pc2 -o basis.tvg --mode basis --period 9 --gop 3");
+  good("tvg decode basis.tvg -o basis.pc2");
+  const std::string frames = folder_.read("basis.pc2").substr(32);
+  const std::size_t frame = frames.size() / kFrames;
+  good("tvg join basis.tvg --frames 3-8 -o middle.tvg && tvg verify -q middle.tvg");
+  EXPECT_EQ(chunks("middle.tvg", "PLAN").size(), 1U);
+  good("tvg decode middle.tvg -o middle.pc2");
+  EXPECT_EQ(folder_.read("middle.pc2").substr(32), frames.substr(3 * frame, 6 * frame));
+  good("tvg join basis.tvg --frames 0-2 -o front.tvg && tvg join basis.tvg --frames 3-11 -o rear.tvg");
+  good("tvg join front.tvg rear.tvg -o again.tvg && tvg verify -q again.tvg");
+  good("tvg decode again.tvg -o again.pc2 && cmp again.pc2 basis.pc2");
+  expect_failure("tvg join basis.tvg --frames 1-5 -o no.tvg", 1, "begin at frame 0, or at 3");
+}
+
+TEST_F(JoinTest, StreamsOfOtherModesFollowOneAnother) {
+  good("tvg encode hand.obj hand.pc2 -o x.tvg --mode basis --period 6 --gop 3 --frames 0-5");
+  good("tvg encode hand.obj hand.pc2 -o y.tvg --mode basis --bits 13 --period 3 --gop 3 --frames 6-11");
+  good("tvg encode hand.obj hand.pc2 -o z.tvg --lossless --gop 4");
+  good("tvg join x.tvg y.tvg a.tvg z.tvg x.tvg -o joined.tvg && tvg verify -q joined.tvg");
+  good("mkdir f && tvg decode joined.tvg -o f/joined_%02d.ply");
+  int next = 0;
+  for (const char* const part : {"x", "y", "a", "z", "x"}) {
+    good(std::string("rm -f g_*; tvg decode ") + part + ".tvg -o g_%02d.ply");
+    const int count = json(std::string("tvg info ") + part + ".tvg --json")["frames"];
+    for (int i = 0; i < count; ++i, ++next)
+      good("cmp $(printf 'g_%02d.ply' " + std::to_string(i) + ") $(printf 'f/joined_%02d.ply' " +
+           std::to_string(next) + ")");
+  }
+  EXPECT_EQ(json("tvg info joined.tvg --json")["frames"], next);
+}
+
 TEST_F(JoinTest, MetadataOfTheFirstAreKeptAndDifferencesNoted) {
   good("tvg encode hand.obj hand.pc2 -o one.tvg --fps 30 --name one");
   good("tvg encode hand.obj hand.pc2 -o two.tvg --fps 25 --units cm --name one");

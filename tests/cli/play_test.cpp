@@ -54,6 +54,15 @@ TEST_F(PlayTest, AFilePlaysToItsEnd) {
   EXPECT_EQ(figures["damaged_places"], 0);
 }
 
+TEST_F(PlayTest, ABasisPlaysToItsEnd) {
+  good("tvg encode hand.obj hand.pc2 -q -o basis.tvg --mode basis --period 8 --gop 4");
+  const Outcome result =
+      on_display("tvg play basis.tvg --once --seconds 3 --size 320x240 --report report.json");
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(report()["frames_shown"].get<int>() + report()["dropped"].get<int>(), 12);
+  EXPECT_EQ(report()["damaged_places"], 0);
+}
+
 TEST_F(PlayTest, AScreenshotShowsMeshAndControls) {
   const Outcome result = on_display(
       "tvg play hand.tvg --start 5 --overlay importance --size 640x400 --screenshot shot.png --report "

@@ -59,6 +59,14 @@ TEST_F(Render, DrawsTheSameFromAStreamAndFromWhatItDecodesTo) {
   EXPECT_EQ(picture("a.png").pixels, picture("b.png").pixels);
 }
 
+TEST_F(Render, DrawsABasisAsWhatItDecodesTo) {
+  good("tvg encode hand.obj hand.pc2 -o basis.tvg --mode basis --period 6 --gop 3 -q");
+  good("tvg decode basis.tvg -o back.pc2 -q");
+  good("tvg render basis.tvg -o a.png --frames 10 --size 96x72 -q");
+  good("tvg render back.obj back.pc2 -o b.png --frames 10 --size 96x72 -q");
+  EXPECT_EQ(picture("a.png").pixels, picture("b.png").pixels);
+}
+
 TEST_F(Render, DrawsWhatComesThroughAPipe) {
   good("cat hand.tvg | tvg render - -o piped_####.png --frames 3-5 --size 96x72 -q");
   EXPECT_EQ(files(".png"), (std::vector<std::string>{"piped_0003.png", "piped_0004.png", "piped_0005.png"}));

@@ -67,6 +67,16 @@ TEST_F(ServeTest, AFileGoesLiveAndIsWatched) {
   EXPECT_THAT(result.out, HasSubstr("live cam: ends after 12 frames in 4 GOPs: complete"));
 }
 
+TEST_F(ServeTest, ABasisGoesLiveAPeriodPerGop) {
+  const Outcome result = script(
+      "serve; tvg encode hand.obj hand.pc2 --live --mode basis --gop 3 --fps 60 -o ${U}live/cam & E=$!;"
+      "watch cam got.tvg; wait $E; echo $?; tvg verify got.tvg; kill $S; wait $S; cat log");
+  EXPECT_THAT(result.out, ::testing::StartsWith("0\n")) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("got.tvg: valid"));
+  EXPECT_THAT(result.out, HasSubstr("live cam: ends after 12 frames in 4 GOPs: complete"));
+  EXPECT_EQ(chunks("got.tvg", "PLAN").size(), chunks("got.tvg", "GOP ").size());
+}
+
 TEST_F(ServeTest, AKilledEncoderLeavesAWholeStreamAndAFreeName) {
   const Outcome result = script(
       "serve; tvg encode hand.obj hand.pc2 --live --loop --gop 3 --fps 60 -q -o ${U}live/cam & E=$!;"

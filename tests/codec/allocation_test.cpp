@@ -103,6 +103,16 @@ TEST(Allocation, FrameLoopMakesNoneOnceAGopHasBegun) {
   }
 }
 
+TEST(Allocation, FrameLoopMakesNoneWithoutLoss) {
+  EncodeOptions options;
+  options.mode = Mode::kLossless;
+  options.gop_frames = 8;
+  for (const char* const name : {"hand", "soup"}) {
+    const Sequence sequence = corpus::find_corpus_entry(name)->make({1600, 24}).sequence;
+    EXPECT_EQ(allocations_in_frame_loop(encode_sequence(sequence, options)), 0u) << name;
+  }
+}
+
 TEST(Allocation, FrameLoopMakesNoneForNoiseOn24Bits) {
   std::mt19937 random(1);
   std::uniform_real_distribution<float> anywhere(0, 1);

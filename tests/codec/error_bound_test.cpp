@@ -1,9 +1,9 @@
 #include "codec_toolbox.hpp"
 #include "corpus/corpus.hpp"
-#include "encoder/importers/open_source.hpp"
+#include "real_sequences.hpp"
 
-#include <cstdlib>
-#include <filesystem>
+#include <algorithm>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -42,44 +42,74 @@ TEST(ErrorBound, IsHalfAStepOnTheCorpusAt7To16Bits) {
   }
 }
 
-/// Where the real sequences are, or nothing.
-std::filesystem::path data_folder() {
-  const char* const variable = std::getenv("TVG_DATA_DIR");
-  const std::filesystem::path folder = variable != nullptr ? variable : "";
-  return std::filesystem::is_directory(folder) ? folder : std::filesystem::path();
-}
-
-Sequence read_real(const std::filesystem::path& mesh) {
-  std::filesystem::path cache = mesh;
-  cache.replace_extension(".pc2");
-  const cli::OpenedSource opened = cli::open_source({{mesh.string(), cache.string()}, {}});
-  Sequence sequence{opened.source->mesh(), {}, {}};
-  constexpr std::size_t kFrames = 20;
-  FramePositions frame(3 * std::size_t{sequence.mesh.vertex_count});
-  while (sequence.frames.size() < kFrames) {
-    const Result<bool> read = opened.source->read_frame(frame);
-    if (!read || !*read) break;
-    sequence.frames.push_back(frame);
-  }
-  return sequence;
-}
-
 TEST(ErrorBound, IsHalfAStepOnRealSequences) {
-  const std::filesystem::path folder = data_folder();
-  if (folder.empty()) GTEST_SKIP() << "no real sequences: set TVG_DATA_DIR to their folder";
-  std::size_t sequences = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder)) {
-    if (file.path().extension() != ".obj") continue;
-    SCOPED_TRACE(file.path().stem().string());
-    const Sequence sequence = read_real(file.path());
-    ASSERT_FALSE(sequence.frames.empty());
+  const std::vector<RealSequence> sequences = real_sequences(20);
+  if (sequences.empty()) GTEST_SKIP() << "no real sequences: set TVG_DATA_DIR to their folder";
+  for (const auto& [name, sequence] : sequences) {
+    SCOPED_TRACE(name);
     for (const auto& [fine, coarse] :
          {std::pair(7, 7), std::pair(11, 9), std::pair(13, 11), std::pair(16, 16)}) {
       ASSERT_NO_FATAL_FAILURE(expect_within_half_a_step(sequence, fine, coarse));
     }
-    ++sequences;
   }
-  EXPECT_GT(sequences, 0u);
+}
+
+struct CoordinateErrors {
+  double rms = 0;
+  double largest = 0;
+};
+
+CoordinateErrors errors_after(const Sequence& sequence, const EncodeOptions& options) {
+  const DecodedStream back = decode_stream(encode_sequence(sequence, options));
+  EXPECT_TRUE(back.complete && back.damage.empty());
+  EXPECT_EQ(back.frames.size(), sequence.frames.size());
+  CoordinateErrors errors;
+  double sum = 0, count = 0;
+  for (const DecodedFrame& frame : back.frames) {
+    const FramePositions& original = sequence.frames[frame.number];
+    for (std::size_t i = 0; i < original.size(); ++i) {
+      const double missed = std::abs(double{frame.positions[i]} - double{original[i]});
+      sum += missed * missed;
+      ++count;
+      errors.largest = std::max(errors.largest, missed);
+    }
+  }
+  errors.rms = std::sqrt(sum / std::max(count, 1.0));
+  return errors;
+}
+
+TEST(ErrorBound, IsWhatWasAskedForOnRealSequencesInBothModes) {
+  const std::vector<RealSequence> sequences = real_sequences(16);
+  if (sequences.empty()) GTEST_SKIP() << "no real sequences: set TVG_DATA_DIR to their folder";
+  for (const auto& [name, sequence] : sequences) {
+    const double diagonal = box_around(sequence.frames).diagonal();
+    for (const Mode mode : {Mode::kElp, Mode::kBasis}) {
+      for (const double share : {0.002, 0.0002}) {
+        SCOPED_TRACE(name + (mode == Mode::kBasis ? " basis " : " elp ") + std::to_string(share));
+        EncodeOptions options;
+        options.mode = mode;
+        options.gop_frames = 8;
+        options.max_error = ErrorBound{share, true};
+        EXPECT_LE(errors_after(sequence, options).largest, share * diagonal);
+      }
+    }
+  }
+}
+
+TEST(ErrorBound, OfABasisIsTheMeanErrorOfTheLatticeOnRealSequences) {
+  const std::vector<RealSequence> sequences = real_sequences(16);
+  if (sequences.empty()) GTEST_SKIP() << "no real sequences: set TVG_DATA_DIR to their folder";
+  for (const auto& [name, sequence] : sequences) {
+    for (const int bits : {9, 11, 13}) {
+      SCOPED_TRACE(name + " " + std::to_string(bits));
+      EncodeOptions options;
+      options.gop_frames = 8;
+      options.fine_bits = options.coarse_bits = bits;
+      const double of_the_lattice = errors_after(sequence, options).rms;
+      options.mode = Mode::kBasis;
+      EXPECT_LE(errors_after(sequence, options).rms, 1.01 * of_the_lattice);
+    }
+  }
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(Conformance, TheEncoderStillMakesTheStoredBytes) {
   std::set<std::string> names;
   for (const ConformanceStream& stream : conformance_streams()) {
     const std::string name(stream.name);
-    EXPECT_TRUE(stream.make() == read_stored(name))
+    EXPECT_TRUE(!stream.same_everywhere || stream.make() == read_stored(name))
         << name << ": the format has changed; if that is meant, run tvg_make_conformance corpus/conformance";
     names.insert(name);
   }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -99,6 +100,7 @@ Status copy_meshes_and_gops(Bytes stream, StreamWriter& writer) {
     if (!header) stop("a stream to be joined is damaged");
     const Bytes chunk = rest.first(static_cast<std::size_t>(header->total_size()));
     if (header->type == kMeshChunk) status = writer.write_mesh_chunk(chunk);
+    if (header->type == kPlanChunk) status = writer.write_plan_chunk(chunk);
     if (header->type == kGopChunk) {
       ByteReader packet(chunk.subspan(kChunkHeaderSize + 1));
       const auto gop = read_gop_header(packet.bytes(packet.varint()));
@@ -205,6 +207,49 @@ Stream make_meshes_again() {
   return stream;
 }
 
+EncodeOptions lossless_options(std::uint32_t gop_frames) {
+  EncodeOptions options;
+  options.mode = Mode::kLossless;
+  options.gop_frames = gop_frames;
+  return options;
+}
+
+/// The first frames of a cloth that is coarse enough for several bases in a small stream.
+Stream make_basis(int fine_bits, int coarse_bits, std::uint32_t frames, std::uint32_t period) {
+  EncodeOptions options = options_of(fine_bits, coarse_bits, Predictor::kAuto, 4);
+  options.mode = Mode::kBasis;
+  options.period_frames = period;
+  return encode_sequence(corpus_sequence("cloth", frames), options);
+}
+
+Stream make_basis_error() {
+  EncodeOptions options;
+  options.mode = Mode::kBasis;
+  options.period_frames = 6;
+  options.gop_frames = 3;
+  options.max_error = ErrorBound{0.01};
+  return encode_sequence(triangle(12), options);
+}
+
+/// Numbers of all sizes: zeros of both signs, denormal ones, the largest, and what changes its sign.
+Stream make_lossless_numbers() {
+  constexpr float kLeast = 0x1p-149F, kNormal = 0x1p-126F, kLargest = 0x1.FFFFFEp127F;
+  Sequence sequence = triangle(4);
+  sequence.frames[0] = {0, -0.0F, kLeast, -kLeast, kNormal, -kNormal, kLargest, -kLargest, 1, 1.5F, -2, 3};
+  sequence.frames[1] = {-0.0F, 0, -kLeast, kNormal, 3 * kLeast, kLargest, -1, -kLargest, 1e-20F, 0.1F, -2, 3};
+  sequence.frames[2] = sequence.frames[1];
+  return encode_sequence(sequence, lossless_options(3));
+}
+
+/// As a format of half the precision has them: the low bits of all numbers are zero.
+Stream make_lossless_half() {
+  Sequence sequence = corpus_sequence("cloth", 3);
+  for (FramePositions& frame : sequence.frames) {
+    for (float& x : frame) x = std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) & 0xFFFFE000u);
+  }
+  return encode_sequence(sequence, lossless_options(50));
+}
+
 }  // namespace
 
 const std::vector<ConformanceStream>& conformance_streams() {
@@ -251,6 +296,20 @@ const std::vector<ConformanceStream>& conformance_streams() {
        }},
       {"pyramid_soup", "the pyramid of all that a mesh can do wrong, its order given up", make_pyramid_soup},
       {"auto", "frames predicted by elp and by the pyramid by turns", make_auto},
+      {"lossless", "mode lossless, several GOPs",
+       [] { return encode_sequence(corpus_sequence("cloth", 4), lossless_options(3)); }},
+      {"lossless_half", "mode lossless, numbers whose low bits are zero", make_lossless_half},
+      {"lossless_multiples", "mode lossless, multiples of a power of two, and a vertex of no face",
+       [] { return encode_sequence(triangle(9), lossless_options(50)); }},
+      {"lossless_numbers", "mode lossless, numbers of all sizes and both signs", make_lossless_numbers},
+      {"basis", "mode basis, several periods of several GOPs", [] { return make_basis(5, 5, 14, 7); }, false},
+      {"basis_hybrid", "mode basis, two lattices", [] { return make_basis(7, 4, 6, 6); }, false},
+      {"basis_error", "mode basis, a bound of the error, and a vertex of no face", make_basis_error, false},
+      {"basis_and_elp", "a part in mode basis between others of the same mesh and of another",
+       [] {
+         return join({make_uniform("cloth", 2, 5, Predictor::kElp), make_basis(4, 4, 5, 5), make_step()});
+       },
+       false},
       {"meshes_again", "two meshes in force, meshes that come again", make_meshes_again},
       {"unknown_chunk", "an ancillary chunk of a type that nobody knows",
        [] {

@@ -26,8 +26,8 @@ void append(Buffer& target, Bytes bytes) {
 }
 
 Buffer head_chunk() {
-  StreamLimits limits{10, 10, 4, 1000, 2, 300, 0};
-  limits.decoder_memory = decoder_memory_needed(limits);
+  StreamLimits limits{10, 10, 4, 1000, 2, 300, 0, 200, 3, 2};
+  limits.decoder_memory = decoder_memory_with_plans(limits);
   return write_chunk(kHeadChunk, false, write_head(limits));
 }
 
@@ -182,7 +182,7 @@ TEST(ChunkReader, APayloadAboveItsBoundIsNotWaitedFor) {
     header.u32(checksum(header.data()));
     return header.take();
   };
-  // Meshes of 300 bytes are declared.
+  // Meshes of 300 bytes are declared, and planes of 200.
   const struct {
     Buffer header;
     const char* message;
@@ -193,7 +193,8 @@ TEST(ChunkReader, APayloadAboveItsBoundIsNotWaitedFor) {
       {announced(kIndexChunk, true, (1 << 20) + 1), "too long"},
       {announced(kMeshChunk, false, 300), ""},
       {announced(kIndexChunk, true, 1 << 20), ""},
-      {announced(kPlanChunk, false, kMaxChunkLength), ""},
+      {announced(kPlanChunk, false, 201), "too long"},
+      {announced(kPlanChunk, false, 200), ""},
       {announced(kGopChunk, false, kMaxChunkLength), ""},
   };
   for (const auto& [header, message] : cases) {

@@ -98,13 +98,43 @@ TEST(Head, BoundsAscendAndUnknownOnesAreSkippedOrRefusedByTheirKey) {
   const std::uint64_t memory = 1 << 22;
   EXPECT_TRUE(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64}));
   EXPECT_TRUE(read_bounds({0, 7, 1, 8, 3, 8, 4, 4, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64, 1000, 1}));
-  expect_refused(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64, 15, 1}),
+  expect_refused(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64, 21, 1}),
                  ErrorCode::kUnsupportedVersion, "§4.1");
   expect_refused(read_bounds({3, 8, 1, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64}), ErrorCode::kMalformed,
                  "§3.5");
   expect_refused(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1}), ErrorCode::kMalformed, "§4.1");
   expect_refused(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, 1 << 20, 11, 1, 13, 64}), ErrorCode::kMalformed,
                  "§4.1");
+}
+
+TEST(Head, HasBoundsOfPlanesOnlyWhereThereAreAny) {
+  const Buffer without = write_head(some_limits());
+  StreamLimits limits = some_limits();
+  limits.components = 7;
+  limits.plans = 9;
+  EXPECT_EQ(write_head(limits), without);
+  limits.plan_bytes = 500;
+  limits.decoder_memory = decoder_memory_with_plans(limits);
+  const Result<StreamHead> back = read_head(write_head(limits));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->limits, limits);
+  --limits.decoder_memory;
+  expect_refused(read_head(write_head(limits)), ErrorCode::kMalformed, "§4.1");
+  EXPECT_EQ(read_head(without)->limits, some_limits()) << "one chunk of no bytes and no components";
+}
+
+TEST(Head, BoundsOfPlanesOutOfRangeAreRefused) {
+  const auto read = [](std::uint64_t key, std::uint64_t value) {
+    return read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, std::uint64_t{1} << 50, 11, 1, 13, 64, key, value});
+  };
+  EXPECT_TRUE(read(15, 0xFFFFFFFF));
+  EXPECT_TRUE(read(17, 65535));
+  EXPECT_TRUE(read(19, 1));
+  EXPECT_TRUE(read(19, 256));
+  expect_refused(read(15, 0x100000000), ErrorCode::kMalformed, "§4.1");
+  expect_refused(read(17, 65536), ErrorCode::kMalformed, "§4.1");
+  expect_refused(read(19, 0), ErrorCode::kMalformed, "§4.1");
+  expect_refused(read(19, 257), ErrorCode::kMalformed, "§4.1");
 }
 
 TEST(Head, TheLimitsOfTwoStreamsTogetherHoldForBoth) {
@@ -117,6 +147,18 @@ TEST(Head, TheLimitsOfTwoStreamsTogetherHoldForBoth) {
   EXPECT_EQ(both.vertices, 5000u);
   EXPECT_EQ(both.meshes, 9u);
   EXPECT_EQ(both.decoder_memory, decoder_memory_needed(both)) << "more than either alone";
+  b.decoder_memory = decoder_memory_with_shapes(b);
+  const StreamLimits with_shapes = larger_limits(a, b);
+  EXPECT_EQ(with_shapes.decoder_memory, decoder_memory_with_shapes(with_shapes));
+  b.plan_bytes = 700;
+  b.components = 40;
+  b.plans = 5;
+  b.decoder_memory = decoder_memory_with_plans(b);
+  const StreamLimits with_plans = larger_limits(a, b);
+  EXPECT_EQ(with_plans.plan_bytes, 700u);
+  EXPECT_EQ(with_plans.components, 40u);
+  EXPECT_EQ(with_plans.plans, 5u);
+  EXPECT_EQ(with_plans.decoder_memory, decoder_memory_with_plans(with_plans));
 }
 
 TEST(MetadataLayout, ComesBackInUtf8) {

@@ -26,14 +26,26 @@ void append(Stream& stream, const Stream& bytes) {
   stream.insert(stream.end(), bytes.begin(), bytes.end());
 }
 
-/// A stream that declares as much as a decoder lets it, and then has these chunks.
-Stream hostile(const std::vector<Stream>& chunks) {
-  StreamLimits limits{1u << 22, 1u << 22, 1u << 16, 1u << 28, 4, 1u << 28, 0};
-  limits.decoder_memory = decoder_memory_needed(limits);
+/// A stream of these limits and chunks.
+Stream stream_of(const StreamLimits& limits, const std::vector<Stream>& chunks) {
   Stream stream(kSignature.begin(), kSignature.end());
   append(stream, write_chunk(kHeadChunk, false, write_head(limits)));
   for (const Stream& chunk : chunks) append(stream, chunk);
   return stream;
+}
+
+/// A stream that declares as much as a decoder lets it.
+Stream hostile(const std::vector<Stream>& chunks) {
+  StreamLimits limits{1u << 22, 1u << 22, 1u << 16, 1u << 28, 4, 1u << 28, 0};
+  limits.decoder_memory = decoder_memory_needed(limits);
+  return stream_of(limits, chunks);
+}
+
+/// The same of planes.
+Stream hostile_planes(const std::vector<Stream>& chunks) {
+  StreamLimits limits{1u << 10, 1u << 10, 1u << 16, 1u << 28, 4, 1u << 28, 0, 1u << 28, 1u << 9, 256};
+  limits.decoder_memory = decoder_memory_with_plans(limits);
+  return stream_of(limits, chunks);
 }
 
 Stream mesh_chunk(std::uint32_t vertices, std::uint32_t faces, std::size_t connectivity, std::uint8_t fill) {
@@ -50,8 +62,8 @@ Stream count_chunk(ChunkType type, std::uint64_t count, std::size_t fill) {
 }
 
 /// A chunk header that promises more than follows.
-Stream long_chunk(ChunkType type, std::uint32_t length) {
-  Stream chunk = write_chunk(type, true, {});
+Stream long_chunk(ChunkType type, std::uint32_t length, bool ancillary = true) {
+  Stream chunk = write_chunk(type, ancillary, {});
   chunk.resize(kChunkHeaderSize - 8);
   ByteWriter rest;
   rest.u32(length);
@@ -70,7 +82,7 @@ std::vector<Stream> empty_frames() {
   const Stream fields = write_elp_header(
       PredictorSet(15), {.origin = {0, 0, 0}, .step = 1e-300, .fine_bits = 24, .coarse_bits = 1}, {});
   GopHeader header;
-  header.mesh = mesh_id(mesh);
+  header.mesh = chunk_id(mesh);
   header.frame_count = 1u << 16;
   header.packet_count = kHuge;
   header.fields = fields;
@@ -96,7 +108,9 @@ std::vector<HostileFile> hostile_files() {
       {"roots", hostile({mesh_chunk(6400, 6400, 100, 0xFF)})},
       {"noise", hostile({mesh_chunk(4000, 8000, 100, 0x5A)})},
       {"data without end", hostile({long_chunk(kDataChunk, 1u << 26)})},
-      {"planes without end", hostile({mesh_chunk(1, 0, 1, 0), count_chunk(kPlanChunk, kHuge, 100)})},
+      {"planes without end", hostile_planes({mesh_chunk(1, 0, 1, 0), count_chunk(kPlanChunk, kHuge, 100)})},
+      {"planes that are announced only",
+       hostile_planes({mesh_chunk(1, 0, 1, 0), long_chunk(kPlanChunk, 1u << 28, false)})},
       {"metadata without end", hostile({count_chunk(kMetadataChunk, kHuge, 100)})},
       {"an index without end", hostile({count_chunk(kIndexChunk, kHuge, 100)})},
       {"frames without end", hostile(empty_frames())},

@@ -76,9 +76,27 @@ void repair_lengths(std::span<std::uint8_t> stream) {
 
 namespace {
 
-/// The GOP's packets, and the mesh they name where that has another name now.
-void repair_packets(std::span<std::uint8_t> stream, const ChunkExtent& gop,
-                    const std::map<std::uint32_t, std::uint32_t>& names) {
+using Names = std::map<std::uint32_t, std::uint32_t>;
+
+/// Where the first four bytes are a name that has changed, it becomes the new one.
+void rename(std::span<std::uint8_t> name, const Names& names) {
+  const auto renamed = name.size() >= 4 ? names.find(get_u32(name)) : names.end();
+  if (renamed != names.end()) put_u32(name, renamed->second);
+}
+
+/// The planes that a GOP names, in what its header has behind the name of the mesh.
+void rename_planes(std::span<std::uint8_t> fields, const Names& names) {
+  ByteReader reader(fields);
+  for (int i = 0; i < 3; ++i) reader.varint();
+  const std::uint64_t planes = reader.varint();
+  for (std::uint64_t i = 0; i < planes && reader.ok() && reader.left() >= 4; ++i) {
+    rename(fields.subspan(reader.position()), names);
+    reader.u32();
+  }
+}
+
+/// The GOP's packets, and the mesh and the planes they name where these have other names now.
+void repair_packets(std::span<std::uint8_t> stream, const ChunkExtent& gop, const Names& names) {
   std::uint32_t header_checksum = 0;
   for (std::size_t k = 0; k < gop.packets.size(); ++k) {
     const auto packet = stream.subspan(gop.packets[k].begin, gop.packets[k].size);
@@ -87,8 +105,8 @@ void repair_packets(std::span<std::uint8_t> stream, const ChunkExtent& gop,
       reader.u8();
       reader.varint();
       const auto name = packet.subspan(std::min(reader.position(), packet.size()));
-      const auto renamed = name.size() >= 4 ? names.find(get_u32(name)) : names.end();
-      if (renamed != names.end()) put_u32(name, renamed->second);
+      rename(name, names);
+      if (name.size() >= 4) rename_planes(name.subspan(4), names);
     }
     const std::uint64_t seed = k == 0 ? 0 : packet_seed(header_checksum, static_cast<std::uint32_t>(k));
     const std::uint32_t sum = checksum(packet.first(packet.size() - kChunkChecksumSize), seed);
@@ -100,16 +118,18 @@ void repair_packets(std::span<std::uint8_t> stream, const ChunkExtent& gop,
 }  // namespace
 
 void repair_checksums(std::span<std::uint8_t> stream) {
-  std::map<std::uint32_t, std::uint32_t> names;  ///< of meshes: what they were, what they are
+  Names names;  ///< of meshes and planes: what they were, what they are
   for (const ChunkExtent& chunk : find_chunks(stream)) {
     const auto bytes = stream.subspan(chunk.whole.begin, chunk.whole.size);
     put_u32(bytes.subspan(kHeaderChecksumOffset), checksum(bytes.first(kHeaderChecksumOffset)));
     repair_packets(stream, chunk, names);
+    const std::optional<ChunkHeader> header = read_chunk_header(bytes);
+    const bool is_plan = header && header->type == kPlanChunk;
+    if (is_plan) rename(bytes.subspan(kChunkHeaderSize), names);
     const auto sum = bytes.last(kChunkChecksumSize);
     const std::uint32_t before = get_u32(sum);
     put_u32(sum, checksum(bytes.subspan(kChunkHeaderSize, bytes.size() - kLeastChunkSize)));
-    if (read_chunk_header(bytes) && read_chunk_header(bytes)->type == kMeshChunk)
-      names[before] = get_u32(sum);
+    if (is_plan || (header && header->type == kMeshChunk)) names[before] = get_u32(sum);
   }
 }
 

@@ -43,7 +43,7 @@ std::vector<std::size_t> counted(std::size_t count) {
 /// others.
 void damage_packets(const std::function<void(std::vector<std::size_t>&, std::size_t)>& damage,
                     std::size_t first_bad_offset) {
-  for (const std::string_view name : {"gops", "hybrid_time", "pipe", "elp"}) {
+  for (const std::string_view name : {"gops", "hybrid_time", "pipe", "elp", "basis"}) {
     const Original original = make_original(name);
     std::uint64_t gop_begin = 0;
     for (const ChunkExtent& gop : find_chunks(original.stream)) {
@@ -91,7 +91,8 @@ void expect_reported(const Original& original, const Stream& damaged, const std:
 }
 
 TEST(StructureDamage, ChunksDroppedDoubledOrSwappedAreNeverSilent) {
-  for (const std::string_view name : {"gops", "hybrid_time", "pipe", "metadata", "two_meshes"}) {
+  for (const std::string_view name :
+       {"gops", "hybrid_time", "pipe", "metadata", "two_meshes", "basis", "basis_and_elp"}) {
     const Original original = make_original(name);
     const std::vector<ChunkExtent> chunks = find_chunks(original.stream);
     for (std::size_t k = 0; k < chunks.size(); ++k) {
@@ -112,6 +113,51 @@ TEST(StructureDamage, ChunksDroppedDoubledOrSwappedAreNeverSilent) {
       }
     }
   }
+}
+
+/// Each plan of a stream of several, damaged in one place after the other: the frames of the GOPs behind it,
+/// up to the next plan, are reported lost, and all others are exact.
+void damage_plans(std::string_view name, bool repaired) {
+  const Original original = make_original(name);
+  const std::vector<ChunkExtent> chunks = find_chunks(original.stream);
+  std::size_t plans = 0;
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    if (chunks[k].type != 'P') continue;
+    ++plans;
+    std::vector<std::pair<std::uint64_t, bool>> gops;  // frames, and whether they need the plan
+    bool needed = false;
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+      if (chunks[i].type == 'P' || chunks[i].type == 'M') needed = i == k;
+      if (chunks[i].type == 'G') gops.emplace_back(chunks[i].packets.size() - 2, needed);
+    }
+    // Behind its fields up to the scales, whose damage not every digest tells.
+    const std::size_t begin = chunks[k].whole.begin + (repaired ? 100 : 0);
+    const std::size_t end_of_damage =
+        chunks[k].whole.end() - (repaired ? 4 : 0);  // what is repaired is no damage
+    for (std::size_t at = begin; at < end_of_damage; at += 3) {
+      Stream damaged = original.stream;
+      damaged[at] ^= 0x10;
+      if (repaired) repair_checksums(damaged);
+      const Verdict verdict = judge(original, damaged);
+      ASSERT_TRUE(verdict.wrong.empty()) << name << ", chunk " << k << ", byte " << at;
+      ASSERT_FALSE(verdict.error) << name << ", chunk " << k << ", byte " << at;
+      std::uint64_t frame = 0;
+      for (const auto& [frames, lost] : gops) {
+        for (const std::uint64_t end = frame + frames; frame < end; ++frame)
+          ASSERT_EQ(verdict.reported(frame), lost) << name << ", byte " << at << ", frame " << frame;
+      }
+    }
+  }
+  EXPECT_GE(plans, 1u);
+}
+
+TEST(StructureDamage, ADamagedPlanLosesExactlyTheFramesOfItsGops) {
+  for (const std::string_view name : {"basis", "basis_hybrid", "basis_error", "basis_and_elp"})
+    damage_plans(name, false);
+}
+
+TEST(StructureDamage, APlanOfOtherValuesBehindFittingChecksumsLosesTheFramesOfItsGops) {
+  for (const std::string_view name : {"basis", "basis_error"}) damage_plans(name, true);
 }
 
 /// Bytes in the middle are gone, as when a download lost a piece: decoding finds its way back.

@@ -30,6 +30,7 @@ tvg::DecoderLimits small_limits() {
   limits.packet_bytes = 1u << 20;
   limits.meshes = 8;
   limits.mesh_bytes = 1u << 18;
+  limits.plan_bytes = 1u << 18;
   limits.memory = std::uint64_t{64} << 20;
   return limits;
 }
@@ -58,6 +59,10 @@ class Player {
     decoder_.copy_lattice(indices_);
     decoder_.copy_flags(flags_);
     const tvg::GopInfo& gop = decoder_.gop();
+    if (gop.mode == tvg::Mode::kLossless) {
+      for (const std::int32_t number : indices_) require(number >= -0x7F800000 && number < 0x7F800000);
+      return;
+    }
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const int bits = flags_[i / 3] != 0 ? gop.fine_bits : gop.coarse_bits;
       require(indices_[i] >= 0 && indices_[i] < (std::int32_t{1} << bits));

@@ -73,7 +73,9 @@ bool write_encoder_seeds(const fs::path& folder) {
       {kCreate | 1 << 3, 13, 9},                                  // bits
       {kCreate | 2 << 3, 100, 3, kMetadata | 26 << 3, 'k', 'v'},  // step
       {kCreate | 4 << 3, 90, 40, 2, 3, 1, 1, 0, 0, 0, 9, 4},      // share, predictor, GOPs, order
-      {kCreate | 8 << 3, 2, 30, 30, 1, 180, 200, 180, 200, 180, 200, 180, 100, 180, 100, 180, 100, 2},  // box
+      {kCreate | 8 << 3, 2, 30, 30, 1, 180, 200, 180, 200, 180, 200, 180, 100, 180, 100, 180, 100, 2,
+       0},                                                                                  // box
+      {kCreate | 8 << 3, 2, 30, 30, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 1, 5, 3, 0},  // basis
       {kCreate | 16 << 3, 5},  // a sink that gives up
   };
   std::vector<std::uint8_t> all;

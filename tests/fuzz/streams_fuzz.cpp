@@ -33,6 +33,7 @@ tvg::DecoderLimits small_limits() {
   limits.packet_bytes = 1u << 18;
   limits.meshes = 8;
   limits.mesh_bytes = 1u << 18;
+  limits.plan_bytes = 1u << 18;
   limits.memory = std::uint64_t{32} << 20;
   return limits;
 }
@@ -149,6 +150,7 @@ void run_relay(const Stream& stream, std::size_t piece, const Verdict& verdict) 
     if (!begun) require(assembler.begin(*head, metadata).ok());
     begun = true;
     if (part.kind == tvg::StreamPart::Kind::kMesh) require(assembler.write_mesh(part.chunk).ok());
+    if (part.kind == tvg::StreamPart::Kind::kPlan) require(assembler.write_plan(part.chunk).ok());
     if (part.kind == tvg::StreamPart::Kind::kGop) {
       require(assembler.write_gop(part.chunk, part.frame_count).ok());
       frames += part.frame_count;

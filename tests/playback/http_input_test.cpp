@@ -110,6 +110,20 @@ TEST(HttpInput, ASeekAsksForTheBytesOfItsGopOnly) {
   EXPECT_EQ(loader.snapshot().damage.size(), 0u);
 }
 
+TEST(HttpInput, ASeekInABasisAsksForThePlanesOfItsPeriod) {
+  const DecodedStream plain = decode_stream(basis_of_noise());
+  const std::uint64_t plan = last_of(plain.index, IndexEntry::Kind::kPlan);
+  StreamServer::Behaviour behaviour;
+  behaviour.hang_after = static_cast<std::size_t>(plan) / 2;
+  StreamServer server(basis_of_noise(), behaviour);
+  StreamLoader loader(std::make_unique<HttpInput>(server.url(), patient()));
+  expect_frame(loader, plain.frames[0]);
+  loader.seek(62);
+  expect_frame(loader, plain.frames[62]);
+  EXPECT_THAT(server.requests(), Contains("bytes=" + std::to_string(plan) + "-"));
+  EXPECT_EQ(loader.snapshot().damage.size(), 0u);
+}
+
 TEST(HttpInput, ABrokenConnectionIsResumedWhereItBroke) {
   StreamServer::Behaviour behaviour;
   behaviour.break_after = 50'000;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -21,6 +22,30 @@ inline Stream encoded(std::string_view name, std::uint32_t gop_frames, std::stri
   options.gop_frames = gop_frames;
   options.metadata = {{"fps", "25"}, {"name", std::string(name)}};
   return encode_sequence(corpus::find_corpus_entry(name)->make(*corpus::named_size(size)).sequence, options);
+}
+
+/// A stream in mode basis of four periods of 16 frames, each of about 100 kB and four GOPs.
+inline const Stream& basis_of_noise() {
+  static const Stream kStream = [] {
+    std::mt19937 random(4);
+    EncodeOptions options;
+    options.mode = Mode::kBasis;
+    options.fine_bits = options.coarse_bits = 12;
+    options.period_frames = 16;
+    options.gop_frames = 4;
+    options.effort = 1;
+    return encode_sequence(random_sequence(grid(40, 40), 64, random), options);
+  }();
+  return kStream;
+}
+
+/// Where the last chunk of a kind begins in an index.
+inline std::uint64_t last_of(const std::vector<IndexEntry>& index, IndexEntry::Kind kind) {
+  std::uint64_t offset = 0;
+  for (const IndexEntry& entry : index) {
+    if (entry.kind == kind) offset = entry.offset;
+  }
+  return offset;
 }
 
 /// A file that is gone when the test is over.

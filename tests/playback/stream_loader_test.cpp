@@ -108,6 +108,72 @@ TEST(StreamLoader, SeeksAnywhereGiveTheRightFrameWithAnIndexAndWithout) {
   }
 }
 
+/// An input that notes what is read of it.
+class NotedInput final : public player::StreamInput {
+ public:
+  using Notes = std::shared_ptr<std::vector<ByteRange>>;
+
+  NotedInput(std::unique_ptr<player::StreamInput> input, Notes notes)
+      : input_(std::move(input)), notes_(std::move(notes)) {}
+
+  const std::string& name() const override { return input_->name(); }
+  std::optional<std::uint64_t> size() const override { return input_->size(); }
+  Result<std::size_t> read(std::uint64_t offset, std::span<std::uint8_t> target) override {
+    Result<std::size_t> count = input_->read(offset, target);
+    if (count) notes_->push_back({offset, *count});
+    return count;
+  }
+  Result<std::vector<std::uint8_t>> read_aside(const ByteRange& range) override {
+    return input_->read_aside(range);
+  }
+  bool reaches(std::uint64_t offset) const override { return input_->reaches(offset); }
+  void interrupt() override { input_->interrupt(); }
+  void resume() override { input_->resume(); }
+  void cancel() override { input_->cancel(); }
+  std::vector<ByteRange> buffered() const override { return input_->buffered(); }
+  player::InputStatus status() const override { return input_->status(); }
+
+ private:
+  std::unique_ptr<player::StreamInput> input_;
+  Notes notes_;
+};
+
+TEST(StreamLoader, ASeekInABasisReadsItsPlanesAndItsGopAndNotTheRest) {
+  constexpr std::uint64_t kPiece = 1 << 16;
+  const Stream& stream = basis_of_noise();
+  const DecodedStream plain = decode_stream(stream);
+  const std::uint64_t plan = last_of(plain.index, IndexEntry::Kind::kPlan);
+  const std::uint64_t gop = last_of(plain.index, IndexEntry::Kind::kGop);
+  ASSERT_GT(plan, 3 * kPiece);
+  ASSERT_GT(gop - plan, kPiece / 2);
+  const TemporaryFile file(stream);
+  const auto notes = std::make_shared<std::vector<ByteRange>>();
+  {
+    StreamLoader loader(std::make_unique<NotedInput>(player::open_stream_input(file.path()), notes),
+                        {.ring_frames = 2});
+    ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[0]));
+    loader.seek(62);
+    ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[62]));
+    // Both GOPs are of the period whose planes are there.
+    loader.seek(50);
+    ASSERT_NO_FATAL_FAILURE(expect_frame(loader, plain.frames[50]));
+  }
+  std::size_t first = 0;
+  while (first < notes->size() && (*notes)[first].offset < plan) ++first;
+  ASSERT_LT(first, notes->size());
+  EXPECT_EQ((*notes)[first].offset, plan);
+  std::uint64_t before = 0, of_planes = 0;
+  for (std::size_t i = 0; i < notes->size(); ++i) {
+    if (i < first) before += (*notes)[i].size;
+    if (i >= first) {
+      EXPECT_GE((*notes)[i].offset, plan);
+    }
+    of_planes += (*notes)[i].offset == plan ? 1 : 0;
+  }
+  EXPECT_LT(before, plan - kPiece) << "periods between were read";
+  EXPECT_EQ(of_planes, 1u);
+}
+
 TEST(StreamLoader, SeeksInQuickSuccessionEndAtTheLastOne) {
   const Stream stream = encoded("toy", 4);
   const DecodedStream plain = decode_stream(stream);

@@ -102,7 +102,8 @@ class TheOrderOfChunks(unittest.TestCase):
                 self.assertEqual(verdict(data), "valid", (place, name))
         for kind, payload in ((b"MESH", negative_base.MESH), (b"MESH", negative_base.OTHER_MESH),
                               (b"PLAN", negative_base.PLAN)):
-            data = negative_base.stream(before=("GOP1", negative_base.put_named(kind, payload)))
+            data = negative_base.stream(before=("GOP1", negative_base.put_named(kind, payload)),
+                                        **(negative_base.PLANES_HEAD if kind == b"PLAN" else {}))
             self.assertEqual(verdict(data), "valid", kind)
         for order in (("HEAD", "INDX", "TAIL"), ("HEAD", "MESH", "INDX", "TAIL")):
             self.assertEqual(verdict(negative_base.stream(order)), "valid", order)
@@ -122,7 +123,7 @@ class TheWriters(unittest.TestCase):
             self.assertEqual(data, stored("random", name + ".tvg"), name)
 
     def test_make_valid_streams_of_any_seed(self):
-        for seed in range(1000, 1040):
+        for seed in (*range(1000, 1040), *range(2000, 2020)):
             self.assertEqual(verdict(random_streams.RandomStream(seed).write()), "valid", seed)
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 #include "server/live_hub.hpp"
 
 #include "server_toolbox.hpp"
+#include "tests/container/plan_streams.hpp"
 
 namespace tvg::server::testing {
 namespace {
@@ -8,9 +9,7 @@ namespace {
 constexpr std::chrono::milliseconds kNow{0};
 constexpr std::uint64_t kRoom = 1u << 20;
 
-/// The parts of a stream of `gops` GOPs.
-std::vector<StreamPart> make_parts(std::size_t gops) {
-  const test::Stream stream = make_live_stream(gops);
+std::vector<StreamPart> parts_of(const test::Stream& stream) {
   StreamSplitter splitter;
   EXPECT_TRUE(splitter.push(stream).ok());
   std::vector<StreamPart> parts;
@@ -20,6 +19,11 @@ std::vector<StreamPart> make_parts(std::size_t gops) {
     if (!part || !*part) return parts;
     parts.push_back(std::move(**part));
   }
+}
+
+/// The parts of a stream of `gops` GOPs.
+std::vector<StreamPart> make_parts(std::size_t gops) {
+  return parts_of(make_live_stream(gops));
 }
 
 /// Steps a viewer until it has nothing more to write now.
@@ -88,6 +92,35 @@ TEST(LiveHub, WhatASlowViewerGotIsAWholeStreamWithGapsInTheNumbers) {
   ASSERT_EQ(seen.frames.size(), 4U);
   EXPECT_EQ(seen.frames[0].gop.source_frame, 0U);
   EXPECT_EQ(seen.frames[2].gop.source_frame, 22U);
+}
+
+TEST(LiveHub, WhoJoinsLateIsGivenTheMeshAndThePlanesOfTheGop) {
+  const test::PlanBuffer mesh = test::some_mesh(1);
+  const test::PlanBuffer plan = test::some_plan(mesh, 1), other = test::some_plan(mesh, 2);
+  const test::PlanBuffer bytes = test::PlanStream(1, 2)
+                                     .mesh(mesh)
+                                     .plan(plan)
+                                     .gop(mesh, {plan})
+                                     .plan(other)
+                                     .gop(mesh, {other})
+                                     .gop(mesh, {plan})
+                                     .end();
+  const auto stream = std::make_shared<LiveStream>(kRoom);
+  const std::vector<StreamPart> parts = parts_of(bytes);
+  ASSERT_EQ(parts.size(), 8U);
+  for (std::size_t i = 0; i < 6; ++i) stream->add(parts[i]);
+  LiveViewer viewer(stream, *stream->wait_for_start(kNow));
+  std::string seen = take_all(viewer);
+  for (std::size_t i = 6; i < parts.size(); ++i) stream->add(parts[i]);
+  seen += take_all(viewer);
+  const test::PlanBuffer expected = test::PlanStream(1, 2)
+                                        .mesh(mesh)
+                                        .plan(other)
+                                        .gop_numbered(mesh, {other}, 2)
+                                        .plan(plan)
+                                        .gop_numbered(mesh, {plan}, 4)
+                                        .end();
+  EXPECT_EQ(seen, std::string(expected.begin(), expected.end()));
 }
 
 TEST(LiveHub, AViewerWhoseSinkFailsIsDone) {

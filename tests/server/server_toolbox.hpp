@@ -113,12 +113,19 @@ class RawClient {
 };
 
 /// A stream of `gops` GOPs of two frames.
-inline test::Stream make_live_stream(std::size_t gops, unsigned seed = 1) {
+inline test::Stream make_live_stream(std::size_t gops, unsigned seed = 1, EncodeOptions options = {}) {
   std::mt19937 random(seed);
   const Sequence sequence = test::random_sequence(test::grid(6, 5), 2 * gops, random);
-  EncodeOptions options;
   options.gop_frames = 2;
   return test::encode_sequence(sequence, options);
+}
+
+/// The same in mode basis, with so many GOPs to a period.
+inline test::Stream make_live_basis(std::size_t gops, std::uint32_t gops_of_period) {
+  EncodeOptions options;
+  options.mode = Mode::kBasis;
+  options.period_frames = 2 * gops_of_period;
+  return make_live_stream(gops, 1, options);
 }
 
 /// Where each GOP of a stream ends, in bytes; [0] is where the first begins.

@@ -50,19 +50,27 @@ Stream assemble(const std::vector<StreamPart>& parts, std::size_t first, std::si
     return Status();
   });
   Metadata metadata;
-  const StreamPart* mesh = nullptr;
+  const StreamPart *mesh = nullptr, *plan = nullptr;
   for (std::size_t i = 0; i < first; ++i) {
     if (parts[i].kind == StreamPart::Kind::kMetadata) metadata = parts[i].metadata;
-    if (parts[i].kind == StreamPart::Kind::kMesh) mesh = &parts[i];
+    if (parts[i].kind == StreamPart::Kind::kPlan) plan = &parts[i];
+    if (parts[i].kind != StreamPart::Kind::kMesh) continue;
+    mesh = &parts[i];
+    plan = nullptr;
   }
   EXPECT_TRUE(assembler.begin(parts.at(0).limits, metadata).ok());
   if (mesh != nullptr) {
     EXPECT_TRUE(assembler.write_mesh(mesh->chunk).ok());
   }
+  if (plan != nullptr) {
+    EXPECT_TRUE(assembler.write_plan(plan->chunk).ok());
+  }
   for (std::size_t i = first; i < last; ++i) {
     const StreamPart& part = parts[i];
     if (part.kind == StreamPart::Kind::kMesh) {
       EXPECT_TRUE(assembler.write_mesh(part.chunk).ok());
+    } else if (part.kind == StreamPart::Kind::kPlan) {
+      EXPECT_TRUE(assembler.write_plan(part.chunk).ok());
     } else if (part.kind == StreamPart::Kind::kGop) {
       EXPECT_TRUE(assembler.write_gop(part.chunk, part.frame_count).ok());
     }
@@ -121,7 +129,7 @@ TEST(Relay, SplittingAndAssemblingGivesTheSameFrames) {
 }
 
 TEST(Relay, WhoJoinsAndLeavesAnywhereHasAWholeStream) {
-  for (const char* name : {"gops", "two_meshes", "metadata"}) {
+  for (const char* name : {"gops", "two_meshes", "metadata", "basis"}) {
     const Stream stream = conformance::make_stream(name);
     const std::vector<StreamPart> parts = split_whole(stream).parts;
     const DecodedStream all = decode_stream(stream);

@@ -26,11 +26,15 @@ struct GopInfo {
   std::uint64_t first_frame = 0;   ///< position in the stream
   std::uint64_t source_frame = 0;  ///< number of its first frame in the sequence that was encoded
   std::uint32_t frame_count = 0;
-  std::array<bool, 4> predictors{};  ///< [Predictor]: whether frames may have it
-  int fine_bits = 0;                 ///< B2
-  int coarse_bits = 0;               ///< B1
+  Mode mode = Mode::kElp;
+  std::array<bool, kPredictorCount> predictors{};  ///< [Predictor]: whether frames may have it
+  std::uint32_t components = 0;                    ///< of the basis; 0 in other modes
+  int fine_bits = 0;                               ///< B2; 32 in mode lossless
+  int coarse_bits = 0;                             ///< B1; 32 in mode lossless
   std::array<double, 3> origin{};
-  double step = 0;                 ///< of the fine lattice, in the mesh's units
+  /// Of the fine lattice, in the mesh's units; 0 in mode lossless. In mode basis that of its sums, which does
+  /// not bound their errors.
+  double step = 0;
   std::uint32_t flagged = 0;       ///< number of important vertices; all of them when the bits are equal
   std::uint64_t bytes = 0;         ///< of the whole chunk
   std::uint64_t header_bytes = 0;  ///< of the header packet without the flags
@@ -104,6 +108,11 @@ class Decoder {
   /// count as pushed, so that the next push() begins behind them. A caller that reads from a pipe need not
   /// ask.
   std::uint64_t skip();
+  /// Of the planes that GOPs in mode basis share and that are read from now on, decode only the first `most`
+  /// (a multiple of four, or rounded up to one): the others count as 0, which gives coarser frames sooner.
+  /// Planes are ordered by what they add. Those left out go without a check by their digest; the rows of
+  /// frames are checked as ever. Other modes have no components. All are decoded unless this says otherwise.
+  void use_components(std::uint32_t most);
   /// Whether frame_bits() is measured; it takes time.
   void measure_bits(bool on);
   /// The next event. After kEnd and kError it is the same until seek().
@@ -128,8 +137,9 @@ class Decoder {
   /// Writes the current frame: vertex v's x, y, z as float32 at `positions` + v * `stride` bytes (at least
   /// 12). The caller owns the buffer of vertex_count * stride bytes.
   void copy_positions(void* positions, std::size_t stride = 12) const;
-  /// Writes the current frame's lattice indices, [vertex][xyz], each on its vertex's own lattice. 3 *
-  /// vertex_count values.
+  /// Writes the current frame's lattice indices, [vertex][xyz], each on its vertex's own lattice; in mode
+  /// lossless the bits of each float32 coordinate as an integer in the order of the numbers: the bits, or for
+  /// a set sign -1 less the other bits. 3 * vertex_count values.
   void copy_lattice(std::span<std::int32_t> indices) const;
   /// Importance of each vertex in the current GOP, 0 or 1. vertex_count values.
   void copy_flags(std::span<std::uint8_t> flags) const;

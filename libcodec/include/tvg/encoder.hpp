@@ -11,12 +11,17 @@
 
 namespace tvg {
 
-/// How the frames of a GOP are coded.
-enum class Mode {
-  kElp,  ///< positions, predicted in space and time
+/// A bound of errors: a length in the mesh's units, or a share of the diagonal of the sequence's box, which
+/// only encode() can know, from a source that can be read twice.
+struct ErrorBound {
+  double value = 0;
+  bool of_diagonal = false;
 };
 
 struct EncodeOptions {
+  /// kLossless leaves no choice of bits, step, importance or predictor: bits are those of float32 whatever
+  /// these options say, but kInvalidArgument where they ask for two resolutions, a step, or a predictor other
+  /// than kElp (the default) and kPyramid.
   Mode mode = Mode::kElp;
   int fine_bits = 11;    ///< B2, 1 to 24: bits of important vertices
   int coarse_bits = 11;  ///< B1, 1 to B2: bits of the others
@@ -27,6 +32,16 @@ struct EncodeOptions {
   Importance importance;  ///< of no effect when both lattices are the same
   Predictor predictor = Predictor::kElp;
   std::uint32_t gop_frames = 50;  ///< frames per GOP, at least 1
+  /// In mode basis: frames that share a basis and are encoded together; 0 for what the effort says. encode()
+  /// makes it no longer than the source, where it knows how long that is.
+  std::uint32_t period_frames = 0;
+  /// 1 (fast) to 9 (small): neighbours that the pyramid predicts from and, in mode basis, how many ways of
+  /// quantizing are tried and how long periods are.
+  int effort = 5;
+  /// Instead of bits and step: what no coordinate may be off by more, but for the rounding of decoded
+  /// positions to float32 (which encode() allows for where the source can be read twice). B2 and B1 must be
+  /// the same.
+  std::optional<ErrorBound> max_error;
   bool keep_vertex_order = true;
   std::uint64_t first_frame = 0;  ///< number of the source's first frame in a longer sequence it was cut from
   unsigned threads = 1;           ///< GOPs encoded at the same time; the bytes do not depend on it
@@ -48,7 +63,9 @@ struct EncodeReport {
   std::uint64_t frames = 0;
   std::uint32_t vertices = 0;  ///< of the first mesh
   std::uint64_t gops = 0;
-  std::uint64_t bytes = 0;       ///< of the whole stream
+  std::uint64_t bytes = 0;  ///< of the whole stream
+  /// In mode basis: the largest error of a coordinate, in the mesh's units; 0 in others.
+  double largest_error = 0;
   bool box_of_each_gop = false;  ///< neither box nor step was given, so each GOP has cells of its own
 };
 

@@ -23,7 +23,8 @@ struct StreamPart {
     kHead,      ///< limits; comes first
     kMetadata,  ///< metadata
     kMesh,      ///< chunk, mesh: a mesh that GOPs behind it may name
-    kGop,       ///< chunk, mesh, frame_count, first_frame
+    kPlan,      ///< chunk, mesh, planes: planes that GOPs of the mesh behind it may name
+    kGop,       ///< chunk, mesh, planes, frame_count, first_frame
     kEnd,       ///< the stream is complete; nothing follows
   };
 
@@ -31,7 +32,8 @@ struct StreamPart {
   StreamLimits limits;
   Metadata metadata;
   std::vector<std::uint8_t> chunk;  ///< from the first byte of its header to its checksum
-  std::uint32_t mesh = 0;           ///< name of the mesh, or of the one that the GOP belongs to
+  std::uint32_t mesh = 0;           ///< name of the mesh, or of the one that the planes or the GOP belong to
+  std::vector<std::uint32_t> planes;  ///< the name of the planes, or of all those that the GOP needs
   std::uint32_t frame_count = 0;
   std::uint64_t first_frame = 0;  ///< number of the GOP's first frame in the sequence it was encoded from
 };
@@ -71,9 +73,9 @@ class StreamSplitter {
   std::unique_ptr<State> state_;
 };
 
-/// Writes a stream for one receiver: begin(), then meshes and GOPs as they come, then end(). Whatever was
-/// written so far is the beginning of a valid stream, and after end() all of one, with an index of its own.
-/// Each call returns what the sink does; after an error nothing more may be written.
+/// Writes a stream for one receiver: begin(), then meshes, planes and GOPs as they come, then end(). Whatever
+/// was written so far is the beginning of a valid stream, and after end() all of one, with an index of its
+/// own. Each call returns what the sink does; after an error nothing more may be written.
 class StreamAssembler {
  public:
   /// The sink gets whole chunks.
@@ -87,13 +89,16 @@ class StreamAssembler {
   /// A mesh chunk as StreamPart has it; nothing is written where the mesh is in force already. kInvalidInput
   /// where another mesh of its name is.
   Status write_mesh(std::span<const std::uint8_t> chunk);
-  /// A GOP chunk as StreamPart has it; kInvalidArgument where the mesh that it names is not in
+  /// A chunk of planes as StreamPart has it; nothing is written where they are in force already.
+  /// kInvalidInput where others of their name are, kInvalidArgument where their mesh is not.
+  Status write_plan(std::span<const std::uint8_t> chunk);
+  /// A GOP chunk as StreamPart has it; kInvalidArgument where the mesh or planes that it names are not in
   /// force.
   Status write_gop(std::span<const std::uint8_t> chunk, std::uint32_t frame_count);
   /// Index and tail.
   Status end();
 
-  /// GOPs written so far. The index takes 24 bytes of memory for each.
+  /// GOPs written so far. The index takes 48 bytes of memory for each.
   std::uint64_t gops() const;
   /// Bytes written so far.
   std::uint64_t bytes() const;

@@ -58,6 +58,8 @@ class StreamDecoder {
   }
   std::uint64_t skip() { return tvg_decoder_skip(get()); }
 
+  tvg_code use_components(std::uint32_t most) { return tvg_decoder_use_components(get(), most); }
+
   std::string error_text() const { return tvg_decoder_error_text(get()); }
   tvg_code error_code() const { return tvg_decoder_error_code(get()); }
 

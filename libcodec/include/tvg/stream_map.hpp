@@ -23,14 +23,15 @@ Result<std::vector<IndexEntry>> parse_index(std::span<const std::uint8_t> chunk)
 /// Frames of all GOPs of an index.
 std::uint64_t count_frames(std::span<const IndexEntry> index);
 
-/// Where the chunks of a stream lie and which frames they hold: its meshes and GOPs as they were met while
-/// reading from its start, or all that its index has. Places are in the order of the stream.
+/// Where the chunks of a stream lie and which frames they hold: its meshes, planes and GOPs as they were met
+/// while reading from its start, or all that its index has. Places are in the order of the stream.
 class StreamMap {
  public:
   struct Place {
     IndexEntry entry;
     std::uint64_t first_frame = 0;  ///< position in the stream of the first frame at or behind this place
     std::optional<std::uint64_t> mesh_offset = {};  ///< of a GOP: where its mesh's chunk begins, if known
+    PlaneList plan_offsets = {};  ///< of a GOP: where the chunks of its planes begin, as far as is known
 
     std::uint64_t end_frame() const { return first_frame + entry.frame_count; }
   };
@@ -52,10 +53,10 @@ class StreamMap {
   std::uint64_t frame_count() const { return places_.empty() ? 0 : places_.back().end_frame(); }
   /// The GOP that holds `frame`, or the last one where all end before; null where no GOP is known.
   const Place* gop_for(std::uint64_t frame) const;
-  /// Where the chunks of meshes begin that decoding needs which begins at this GOP of the map, of a stream
-  /// with so many meshes in force, ascending: those that it and the GOPs behind it name and that lie before
-  /// it; without an index the last ones too, since what follows is not known. Empty where there is no memory.
-  std::vector<std::uint64_t> meshes_for(const Place& gop, std::uint32_t meshes_in_force) const;
+  /// Where the chunks of meshes and planes begin that decoding needs which begins at this GOP of the map, of
+  /// a stream with these limits, ascending: those that it and the GOPs behind it name and that lie before it;
+  /// without an index the last ones too, since what follows is not known. Empty where there is no memory.
+  std::vector<std::uint64_t> needed_for(const Place& gop, const StreamLimits& limits) const;
   /// The place that begins at `offset`, or null.
   const Place* at(std::uint64_t offset) const;
   /// Whether an index says the same.

@@ -17,6 +17,14 @@ struct SurveyedMesh {
   MeshInfo parts;
 };
 
+/// Planes that GOPs in mode basis share.
+struct SurveyedPlan {
+  std::uint64_t first_frame = 0;  ///< of those GOPs, position in the stream
+  std::uint64_t frame_count = 0;  ///< of all of them
+  std::uint32_t components = 0;
+  std::uint64_t bytes = 0;  ///< of the whole chunk
+};
+
 /// What a stream's structures say without being decoded.
 struct StreamSurvey {
   StreamHead head;
@@ -25,6 +33,7 @@ struct StreamSurvey {
   std::vector<SurveyedMesh> meshes;
   std::vector<GopInfo> gops;              ///< `flagged` is not known: it takes decoding
   std::vector<std::uint32_t> gop_meshes;  ///< [GOP], number in `meshes` of the mesh it belongs to
+  std::vector<SurveyedPlan> plans;        ///< that can be read, in the order of the stream
   std::vector<Error> findings;            ///< what is wrong as far as that can be seen
   std::uint64_t bytes = 0;                ///< of the signature and all chunks
 

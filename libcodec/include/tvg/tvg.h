@@ -109,6 +109,9 @@ typedef struct tvg_limits {
   uint64_t memory_bytes;   /* of the decoder; 4 GiB unless set */
   uint32_t meshes;         /* kept at once; 2^16 unless set */
   uint32_t mesh_bytes;     /* of one mesh's chunk; 2^30 unless set */
+  uint32_t plan_bytes;     /* of one chunk of planes that GOPs share; 2^30 unless set */
+  uint32_t components;     /* of such a chunk; 2^14 unless set */
+  uint32_t plans;          /* such chunks kept at once; 256 unless set */
 } tvg_limits;
 
 /* What the head of a stream says, and its index where that is known. */
@@ -133,6 +136,13 @@ typedef struct tvg_mesh_info {
                             TVG_EVENT_MESH or tvg_decoder_destroy */
 } tvg_mesh_info;
 
+/* How the frames of a GOP are coded. */
+typedef enum tvg_mode {
+  TVG_MODE_ELP = 0,     /* positions on a lattice, predicted in space and time */
+  TVG_MODE_BASIS = 1,   /* sums of a few planes that a period of frames shares: smallest */
+  TVG_MODE_LOSSLESS = 2 /* float32 positions, of which every bit comes back */
+} tvg_mode;
+
 /* A group of frames that is decodable on its own, given its mesh. */
 typedef struct tvg_gop_info {
   size_t struct_size;
@@ -142,6 +152,9 @@ typedef struct tvg_gop_info {
   uint32_t important_vertices; /* those on the fine lattice */
   double fine_step;   /* edge of a cell of the fine lattice, in the mesh's units: a coordinate of an */
   double coarse_step; /* important vertex is off by half of it at most; of another, by half of this */
+  uint32_t mode; /* a tvg_mode; without loss both steps are 0; of a basis they are those of its sums, and do
+                    not bound its errors */
+  uint32_t components; /* of the basis that the GOP shares with others; 0 in other modes */
 } tvg_gop_info;
 
 typedef struct tvg_frame_info {
@@ -224,6 +237,10 @@ TVG_API tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t
    push begins behind them. A caller that reads from a pipe need not ask. */
 TVG_API uint64_t tvg_decoder_skip(tvg_decoder* decoder);
 
+/* Decodes only the first `most` components, rounded up to a multiple of four, of each basis (TVG_MODE_BASIS)
+   that is read from now on; those that add most come first. All are decoded unless this says otherwise. */
+TVG_API tvg_code tvg_decoder_use_components(tvg_decoder* decoder, uint32_t most);
+
 /* What went wrong last: in TVG_EVENT_ERROR, or in a function that did not return TVG_OK and took a decoder
    that was not const. One line for people; the decoder's own, until the next such event or call. "" where
    nothing has. */
@@ -259,6 +276,7 @@ typedef enum tvg_predictor {
   TVG_PREDICTOR_TIME = 1,
   TVG_PREDICTOR_ELP = 2,
   TVG_PREDICTOR_PYRAMID = 3, /* along the surface, coarse to fine: smaller files, slower */
+  TVG_PREDICTOR_ROWS = 4,    /* of a frame in TVG_MODE_BASIS; none to encode with */
   TVG_PREDICTOR_AUTO = 255   /* for an encoder: elp or pyramid, whichever is smaller in a frame */
 } tvg_predictor;
 
@@ -284,6 +302,15 @@ typedef struct tvg_encoder_options {
   double box_high[3];
   uint32_t max_meshes; /* how many meshes a decoder keeps, at most 65536: one of the last so many that comes
                           again is not sent again; 1 unless set */
+  uint32_t mode; /* a tvg_mode; TVG_MODE_ELP unless set. Without loss bits count for nothing, but must be
+                    those of one resolution; there is no step, and the predictor is elp (unless set) or
+                    pyramid. A basis takes at most 16 bits */
+  uint32_t period_frames; /* of TVG_MODE_BASIS: frames that share a basis and are held in memory, at most
+                             65536; 0 unless set: what the effort says */
+  uint32_t effort;        /* 1 (fast) to 9 (small): what TVG_MODE_BASIS tries, and neighbours that the pyramid
+                             predicts from; 5 unless set, or 0 */
+  double max_error; /* instead of bits and step: what no coordinate may be off by more, in the mesh's units,
+                       but for the rounding of decoded positions to float32; 0 unless set: none */
 } tvg_encoder_options;
 
 /* What was encoded, or joined. */
@@ -291,7 +318,9 @@ typedef struct tvg_encode_report {
   size_t struct_size;
   uint64_t frames;
   uint64_t gops;
-  uint64_t bytes; /* of the whole stream */
+  uint64_t bytes;       /* of the whole stream */
+  double largest_error; /* of a coordinate, in the mesh's units, of what was encoded in TVG_MODE_BASIS; 0
+                           where nothing was, and of what was joined */
 } tvg_encode_report;
 
 /* Sets all options to what they are without being set. `options->struct_size` must be set. */

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -132,6 +133,13 @@ inline constexpr std::uint32_t kMaxVertexCount = 0x7FFFFFFF;
 /// Faces of one mesh (format-spec §5.1): their half-edges, three to a face, are numbered with 32 bits.
 inline constexpr std::uint32_t kMaxFaceCount = 1u << 30;
 
+/// How the frames of a GOP are coded. The numbers are those of the format (§4.5.1).
+enum class Mode : std::uint8_t {
+  kElp = 0,       ///< positions on a lattice, predicted in space and time
+  kBasis = 1,     ///< sums of a few planes that a period shares: smallest, once the period is complete
+  kLossless = 2,  ///< float32 positions, of which every bit comes back
+};
+
 /// How frames are predicted (format-spec §7.2, §7.7).
 enum class Predictor : std::uint8_t {
   kSpace = 0,  ///< the parallelogram of the gate in the same frame
@@ -139,11 +147,18 @@ enum class Predictor : std::uint8_t {
   kElp = 2,    ///< Extended Lorenzo: the parallelogram of the motion (the paper's Eq. 9)
   /// The mean of neighbours along the surface, coarse to fine, and how the vertex missed it before.
   kPyramid = 3,
+  kRows = 4,    ///< rows of a frame in mode basis, which are no frame to choose a predictor for
   kAuto = 255,  ///< for an encoder: for each frame elp or pyramid, whichever takes fewer bytes
 };
 
+/// Predictors that frames have: all but kAuto.
+inline constexpr std::size_t kPredictorCount = 5;
+
 /// Meshes that may be in force at once (format-spec §4.1).
 inline constexpr std::uint32_t kMaxMeshesInForce = 1u << 16;
+/// Chunks of planes that may be in force at once, and components of one (format-spec §4.1).
+inline constexpr std::uint32_t kMaxPlansInForce = 256;
+inline constexpr std::uint32_t kMaxComponents = 65535;
 
 /// Upper bounds a stream declares for itself (format-spec §4.1).
 struct StreamLimits {
@@ -154,6 +169,9 @@ struct StreamLimits {
   std::uint32_t meshes = 1;          ///< in force at once: how many a decoder keeps
   std::uint32_t mesh_bytes = 0;      ///< of any mesh chunk's payload
   std::uint64_t decoder_memory = 0;  ///< bytes, at least what decoder_memory_needed() says of the others
+  std::uint32_t plan_bytes = 0;      ///< of any chunk's payload that holds planes GOPs share; 0: none of use
+  std::uint32_t components = 0;      ///< that any such chunk has
+  std::uint32_t plans = 1;           ///< such chunks in force at once
 
   bool operator==(const StreamLimits&) const = default;
 };
@@ -174,11 +192,39 @@ constexpr std::uint64_t decoder_memory_with_shapes(const StreamLimits& limits) {
   return decoder_memory_needed(limits) + vertices * (400 + 128 * std::uint64_t{limits.meshes}) + 96 * faces;
 }
 
+/// The same where GOPs share planes, which stay as long as they are in force (format-spec §8.2).
+constexpr std::uint64_t decoder_memory_with_plans(const StreamLimits& limits) {
+  const std::uint64_t vertices = limits.vertices, components = limits.components;
+  const std::uint64_t of_each = 4096 + components * (64 + 4 * vertices) + 8 * vertices;
+  return decoder_memory_with_shapes(limits) + limits.plan_bytes + limits.plans * of_each + 128 * vertices +
+         1536 * components;
+}
+
 /// What the head of a stream says.
 struct StreamHead {
   std::uint16_t major = kFormatMajor;
   std::uint16_t minor = kFormatMinor;
   StreamLimits limits;
+};
+
+/// A number for each chunk of planes that a GOP names, none of them 0. None or one, as in all modes so far,
+/// take no memory of their own.
+class PlaneList {
+ public:
+  PlaneList() = default;
+  explicit PlaneList(std::uint64_t only) : only_(only) {}
+  /// A list of any length; nothing where there is no memory for it.
+  static std::optional<PlaneList> of(std::span<const std::uint64_t> numbers);
+
+  /// In the order of the GOP's header; valid as long as the list is.
+  std::span<const std::uint64_t> numbers() const {
+    return more_ ? std::span<const std::uint64_t>(*more_) : std::span(&only_, only_ == 0 ? 0 : 1);
+  }
+  bool operator==(const PlaneList& other) const;
+
+ private:
+  std::uint64_t only_ = 0;  ///< 0 where there is none, or more than one
+  std::shared_ptr<const std::vector<std::uint64_t>> more_;
 };
 
 /// One line of a stream's index (format-spec §4.6).
@@ -195,6 +241,7 @@ struct IndexEntry {
   std::uint32_t frame_count = 0;  ///< frames of a GOP, 0 for others
   std::uint32_t meshes_back = 0;  ///< of a GOP: its mesh is so many meshes back, 1 the last before it; else 0
   Kind kind = Kind::kGop;
+  PlaneList planes_back = {};  ///< of a GOP: its planes are so many chunks of planes back, as its mesh is
 
   bool is_gop() const { return kind == Kind::kGop || kind == Kind::kDependentGop; }
   bool operator==(const IndexEntry&) const = default;
@@ -210,6 +257,9 @@ struct DecoderLimits {
   std::uint32_t meshes = kMaxMeshesInForce;
   std::uint32_t mesh_bytes = 1u << 30;
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes
+  std::uint32_t plan_bytes = 1u << 30;
+  std::uint32_t components = 1u << 14;
+  std::uint32_t plans = kMaxPlansInForce;
 };
 
 struct ByteRange {

@@ -1,0 +1,133 @@
+#include "modes/basis_decode.hpp"
+
+#include "base/allocation.hpp"
+#include "base/stream_error.hpp"
+#include "entropy/range_coder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace tvg {
+
+namespace {
+
+/// Calls `use(block, first vertex, vertices)` for each block of a frame's sums.
+template <class Use>
+void for_each_block(const CoefficientPlanes& planes, const BasisSums& sums, const Use& use) {
+  BasisSums::SumBlock block_sums;
+  for (std::size_t block = 0; block < planes.block_count(); ++block) {
+    sums.sum(planes, block, block_sums);
+    const std::size_t first = block * CoefficientPlanes::kAtOnce;
+    use(block_sums, first, std::min(CoefficientPlanes::kAtOnce, planes.vertex_count() - first));
+  }
+}
+
+}  // namespace
+
+GopInfo basis_gop_info(const GopHeader& header, const BasisHeader& basis) {
+  GopInfo info;
+  info.first_frame = info.source_frame = header.first_frame;
+  info.frame_count = header.frame_count;
+  info.mode = Mode::kBasis;
+  info.predictors[static_cast<std::size_t>(Predictor::kRows)] = true;
+  info.components = basis.components;
+  info.fine_bits = basis.fine_bits;
+  info.coarse_bits = basis.coarse_bits;
+  info.origin = basis.origin;
+  info.step = basis.step;
+  return info;
+}
+
+// format-spec §4.5.1
+Status BasisDecoder::begin(const GopHeader& header, std::shared_ptr<const BasisPlan> plan) {
+  ByteReader reader(header.fields);
+  if (const Fault fault = read_channels(reader, channels_)) return error_of(fault);
+  if (!reader.finished()) return malformed("§4.5.1", "the GOP's header has a wrong size");
+  const std::size_t rows = std::size_t{plan->header.components} + 1;
+  row_coder_.reset();
+  if (!can_allocate(RowCoder::bytes(rows))) return out_of_memory();
+  rows_.clear();
+  if (!try_resize(rows_, 3 * rows) || !sums_.reserve(rows - 1)) return out_of_memory();
+  plan_ = std::move(plan);
+  row_coder_.emplace(plan_->scales);
+  digest_ = Hasher();
+  info_ = basis_gop_info(header, plan_->header);
+  const auto vertices = static_cast<std::uint32_t>(plan_->mesh->coded.gates.size());
+  info_.flagged = plan_->flags.empty()
+                      ? vertices
+                      : static_cast<std::uint32_t>(std::count(plan_->flags.begin(), plan_->flags.end(), 1));
+  return {};
+}
+
+// format-spec §7.8.4
+Status BasisDecoder::take(Bytes packet, Predictor predictor) {
+  if (predictor != Predictor::kRows) return malformed("§4.5.2", "a frame of a GOP in mode basis has no rows");
+  const Result<Bytes> piece = positions_piece(channels_, packet);
+  if (!piece) return piece.error();
+  RangeDecoder coder(*piece);
+  const bool inside = row_coder_->code_frame(coder, rows_);
+  if (!inside && !coder.overrun()) return malformed("§7.8.4", "a row of a basis is out of range");
+  if (!coder.finished()) return malformed("§6.1", "the frame's rows do not fill its packet exactly");
+  digest_.update(std::span<const std::int32_t>(rows_));
+  if (!sums_.take(plan_->planes, plan_->scales, rows_))
+    return malformed("§7.8.5", "the rows of a basis are too large for its planes");
+  return {};
+}
+
+Status BasisDecoder::take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits) {
+  bits.fill(8.0 * static_cast<double>(packet.size()) / 3);
+  return take(packet, predictor);
+}
+
+// format-spec §7.6
+Status BasisDecoder::check_digest(Bytes packet) const {
+  return compare_digest(channels_, packet, digest_.value());
+}
+
+// format-spec §7.8.5
+void BasisDecoder::copy_positions(void* positions, std::size_t stride) const {
+  const BasisHeader& basis = plan_->header;
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const double scale = std::ldexp(basis.step, -basis.fraction_bits);
+  auto* const target = static_cast<std::byte*>(positions);
+  const std::uint32_t* const order = plan_->mesh->coded.order.data();
+  for_each_block(plan_->planes, sums_, [&](const auto& sums, std::size_t first, std::size_t count) {
+    std::array<std::array<float, CoefficientPlanes::kAtOnce>, 3> axes;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < CoefficientPlanes::kAtOnce; ++i) {
+        const double position = basis.origin[axis] + sums[axis][i] * scale;
+        axes[axis][i] = static_cast<float>(std::clamp(position, -kLargest, kLargest));
+      }
+    }
+    // One at a time: a vector would have to wait for what was just written piece by piece.
+    for (std::size_t i = 0; i < count; ++i) {
+      std::byte* const vertex = target + stride * order[first + i];
+      for (std::size_t axis = 0; axis < 3; ++axis) std::memcpy(vertex + 4 * axis, &axes[axis][i], 4);
+    }
+  });
+}
+
+void BasisDecoder::copy_lattice(std::span<std::int32_t> indices) const {
+  constexpr double kLargest = std::numeric_limits<std::int32_t>::max();
+  const double scale = std::ldexp(1.0, -plan_->header.fraction_bits);
+  for_each_block(plan_->planes, sums_, [&](const auto& sums, std::size_t first, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t at = 3 * std::size_t{plan_->mesh->coded.order[first + i]};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double nearest = std::floor(sums[axis][i] * scale + 0.5);
+        indices[at + axis] = static_cast<std::int32_t>(std::clamp(nearest, -kLargest, kLargest));
+      }
+    }
+  });
+}
+
+void BasisDecoder::copy_flags(std::span<std::uint8_t> flags) const {
+  const CodedMesh& mesh = plan_->mesh->coded;
+  for (std::size_t v = 0; v < mesh.order.size(); ++v)
+    flags[mesh.order[v]] = plan_->flags.empty() ? 1 : plan_->flags[v];
+}
+
+}  // namespace tvg

@@ -1,0 +1,51 @@
+#pragma once
+#include "base/checksum.hpp"
+#include "basis/basis_sums.hpp"
+#include "basis/row_coder.hpp"
+#include "container/gop_header.hpp"
+#include "modes/basis_plan.hpp"
+#include "modes/channels.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <tvg/decoder.hpp>
+
+namespace tvg {
+
+/// Decodes a GOP in mode basis, packet by packet (format-spec §7.8). A packet yields the rows of its frame,
+/// which is little work; what costs is the frame made of them, and that is done when it is asked for.
+/// Allocates in begin() and not after.
+class BasisDecoder {
+ public:
+  /// Begins the GOP with this header, whose plan and its mesh are these. kOutOfMemory where there is no room;
+  /// kUnsupported, kMalformed.
+  Status begin(const GopHeader& header, std::shared_ptr<const BasisPlan> plan);
+
+  Status take(Bytes packet, Predictor predictor);
+  /// The same, and `bits` becomes what the rows of x, y and z take of the packet.
+  Status take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits);
+  Status check_digest(Bytes packet) const;
+
+  const GopInfo& info() const { return info_; }
+  void copy_positions(void* positions, std::size_t stride) const;
+  /// The nearest multiples of the step.
+  void copy_lattice(std::span<std::int32_t> indices) const;
+  void copy_flags(std::span<std::uint8_t> flags) const;
+
+ private:
+  std::shared_ptr<const BasisPlan> plan_;
+  GopInfo info_;
+  Channels channels_;
+  std::optional<RowCoder> row_coder_;
+  std::vector<std::int32_t> rows_;  ///< [row][xyz] of the frame
+  BasisSums sums_;                  ///< of the frame
+  Hasher digest_;
+};
+
+}  // namespace tvg
