@@ -63,6 +63,10 @@ class Player {
       for (const std::int32_t number : indices_) require(number >= -0x7F800000 && number < 0x7F800000);
       return;
     }
+    if (gop.mode == tvg::Mode::kBasis) {  // multiples of a step, of no lattice
+      for (const std::int32_t multiple : indices_) require(multiple > INT32_MIN);
+      return;
+    }
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const int bits = flags_[i / 3] != 0 ? gop.fine_bits : gop.coarse_bits;
       require(indices_[i] >= 0 && indices_[i] < (std::int32_t{1} << bits));
