@@ -116,8 +116,8 @@ void run_verify(const VerifyArguments& arguments) {
                              : verdict.lost > 0     ? fmt::format("at least {}", verdict.lost)
                                                     : "an unknown number";
     throw ToolError(ExitStatus::kInvalidInput,
-                    fmt::format("{}: {} findings, {} frames decoded, {} lost", reader.name(), findings.size(),
-                                verdict.frames, lost));
+                    fmt::format("{}: {} {}, {} frames decoded, {} lost", reader.name(), findings.size(),
+                                findings.size() == 1 ? "finding" : "findings", verdict.frames, lost));
   }
 }
 

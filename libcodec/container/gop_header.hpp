@@ -10,9 +10,9 @@
 namespace tvg {
 
 // Modes (format-spec §4.5.1).
-inline constexpr std::uint64_t kModeElp = 0;
-inline constexpr std::uint64_t kModeBasis = 1;
-inline constexpr std::uint64_t kModeLossless = 2;
+inline constexpr auto kModeElp = static_cast<std::uint64_t>(Mode::kElp);
+inline constexpr auto kModeBasis = static_cast<std::uint64_t>(Mode::kBasis);
+inline constexpr auto kModeLossless = static_cast<std::uint64_t>(Mode::kLossless);
 
 constexpr bool is_known_mode(std::uint64_t mode) {
   return mode <= kModeLossless;

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 namespace tvg {
@@ -46,6 +47,10 @@ Status check_basis(const EncodeOptions& options) {
   if (options.mode == Mode::kBasis && !options.step && !options.max_error &&
       options.fine_bits > kMostBasisBits)
     return invalid_argument("mode basis takes 1 to 16 bits: use mode elp for more");
+  return {};
+}
+
+Status check_max_error(const EncodeOptions& options) {
   if (!options.max_error) return {};
   if (!(options.max_error->value > 0) || !std::isfinite(options.max_error->value))
     return invalid_argument("the largest error must be above 0, and finite");
@@ -70,6 +75,7 @@ Status check_options(const EncodeOptions& options) {
   }
   if (options.effort < 1 || options.effort > 9) return invalid_argument("the effort must be 1 to 9");
   if (Status status = check_basis(options); !status.ok()) return status;
+  if (Status status = check_max_error(options); !status.ok()) return status;
   if (options.step && !(*options.step > 0 &&
                         std::isfinite(std::ldexp(*options.step, options.fine_bits - options.coarse_bits)))) {
     return invalid_argument("the step must be a positive length in the mesh's units, and finite");
@@ -114,9 +120,10 @@ Status resolve_max_error(EncodeOptions& options) {
     largest = std::max({largest, std::abs(options.box->low()[axis]), std::abs(options.box->high()[axis])});
   const double rounding = (largest + bound) * 0x1p-24;
   if (bound <= 2 * rounding) {
-    return invalid_argument(
-        "the largest error is below what float32 has at coordinates of this size, about " +
-        std::to_string(2 * rounding));
+    char least[32];
+    std::snprintf(least, sizeof least, "%.3g", 2 * rounding);
+    return invalid_argument("the largest error is below what float32 has at coordinates of this size, " +
+                            std::string(least));
   }
   options.max_error = ErrorBound{bound - rounding, false};
   options.step = 2 * options.max_error->value;

@@ -28,10 +28,7 @@ void for_each_block(const CoefficientPlanes& planes, const BasisSums& sums, cons
 }  // namespace
 
 GopInfo basis_gop_info(const GopHeader& header, const BasisHeader& basis) {
-  GopInfo info;
-  info.first_frame = info.source_frame = header.first_frame;
-  info.frame_count = header.frame_count;
-  info.mode = Mode::kBasis;
+  GopInfo info = gop_info_of(header, Mode::kBasis);
   info.predictors[static_cast<std::size_t>(Predictor::kRows)] = true;
   info.components = basis.components;
   info.fine_bits = basis.fine_bits;
@@ -50,7 +47,7 @@ Status BasisDecoder::begin(const GopHeader& header, std::shared_ptr<const BasisP
   row_coder_.reset();
   if (!can_allocate(RowCoder::bytes(rows))) return out_of_memory();
   rows_.clear();
-  if (!try_resize(rows_, 3 * rows) || !sums_.reserve(rows - 1)) return out_of_memory();
+  if (!try_resize(rows_, 3 * rows) || !sums_.reserve(plan->planes.component_count())) return out_of_memory();
   plan_ = std::move(plan);
   row_coder_.emplace(plan_->scales);
   digest_ = Hasher();

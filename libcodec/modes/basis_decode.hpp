@@ -28,7 +28,7 @@ class BasisDecoder {
   Status begin(const GopHeader& header, std::shared_ptr<const BasisPlan> plan);
 
   Status take(Bytes packet, Predictor predictor);
-  /// The same, and `bits` becomes what the rows of x, y and z take of the packet.
+  /// The same, and `bits` becomes a third of the packet for each axis: one helps to tell the others.
   Status take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits);
   Status check_digest(Bytes packet) const;
 

@@ -6,7 +6,7 @@
 #include "container/plan_payload.hpp"
 #include "entropy/range_coder.hpp"
 #include "modes/channels.hpp"
-#include "quantization/flag_coder.hpp"
+#include "modes/gop_flags_encode.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,14 +17,6 @@
 namespace tvg {
 
 namespace {
-
-/// [traversal index]; empty where there is one lattice.
-std::vector<std::uint8_t> flags_of(const GopInput& input, const CodedMesh& mesh) {
-  std::vector<std::uint8_t> flags;
-  if (!input.lattice.hybrid()) return flags;
-  for (const std::uint32_t vertex : mesh.order) flags.push_back(input.flags[vertex]);
-  return flags;
-}
 
 /// Errors of vertices on the coarse lattice count less by as much as its cells are larger.
 std::vector<float> weights_of(std::span<const std::uint8_t> flags, const GopInput& input,
@@ -37,13 +29,7 @@ std::vector<float> weights_of(std::span<const std::uint8_t> flags, const GopInpu
 
 std::vector<std::uint8_t> plan_payload(const GopInput& input, const GopMesh& mesh,
                                        std::span<const std::uint8_t> flags, const FittedBasis& fitted) {
-  std::vector<std::uint8_t> coded_flags;
-  if (!flags.empty()) {
-    RangeEncoder coder;
-    std::vector<std::uint8_t> copy(flags.begin(), flags.end());
-    code_flags(coder, mesh.coded.gates, copy);
-    coded_flags = coder.finish();
-  }
+  const std::vector<std::uint8_t> coded_flags = encode_flags(mesh.coded, flags);
   ByteWriter fields;
   BasisHeader header;
   header.components = static_cast<std::uint32_t>(fitted.coefficients.components);
@@ -98,14 +84,15 @@ Result<EncodedGop> encode_rows(const GopInput& input, const GopMesh& mesh, std::
 
 Result<EncodedRun> encode_basis(const GopInput& input, const GopMesh& mesh, const StreamLimits& limits) {
   if (input.lattice.fine_bits > kMostBasisBits) {
+    const std::string asked = input.basis.largest_error ? "the largest error" : "the step";
     return Error{ErrorCode::kInvalidArgument,
-                 "the step is too small for mode basis: the box has " +
-                     std::to_string(input.lattice.fine_bits) +
-                     " bits of it, and 16 are possible; use mode elp",
+                 asked + " is too small for mode basis: the box has " +
+                     std::to_string(input.lattice.fine_bits) + " bits of such steps, and " +
+                     std::to_string(kMostBasisBits) + " are possible; use mode elp",
                  {},
                  input.first_frame};
   }
-  const std::vector<std::uint8_t> flags = flags_of(input, mesh.coded);
+  const std::vector<std::uint8_t> flags = flags_in_traversal_order(input, mesh.coded);
   const std::vector<float> weights = weights_of(flags, input, mesh.coded.order.size());
   const Trajectories trajectories =
       trajectories_of(input.frames, mesh.coded.order, weights, input.lattice.origin, input.lattice.step);
@@ -131,9 +118,10 @@ Result<EncodedRun> encode_basis(const GopInput& input, const GopMesh& mesh, cons
                  input.first_frame,
                  "§4.1"};
   run.plan = write_chunk(kPlanChunk, false, payload);
+  const std::uint32_t plan_id = checksum(payload);
   const std::size_t gop_frames = input.basis.gop_frames;
   for (std::size_t first = 0; first < input.frames.size(); first += gop_frames) {
-    Result<EncodedGop> gop = encode_rows(input, mesh, checksum(payload), fitted, first,
+    Result<EncodedGop> gop = encode_rows(input, mesh, plan_id, fitted, first,
                                          std::min(gop_frames, input.frames.size() - first), limits);
     if (!gop) return gop.error();
     run.gops.push_back(std::move(*gop));

@@ -20,12 +20,11 @@ struct BasisPlan {
   BasisHeader header;                ///< its scales are `scales`, its flags gone
   std::vector<std::uint8_t> scales;  ///< [row]
   std::vector<std::uint8_t> flags;   ///< [traversal index]; empty where there is one lattice
-  std::uint64_t flag_bytes = 0;      ///< that these took
   CoefficientPlanes planes;
 };
 
 /// Decodes the fields of a plan in mode basis, for this mesh. Of its components only so many are decoded, in
-/// groups of four; the others are zero. kMalformed, kLimitExceeded, kDigestMismatch, kOutOfMemory.
+/// groups of four; the others are left out. kMalformed, kLimitExceeded, kDigestMismatch, kOutOfMemory.
 Result<BasisPlan> decode_basis_plan(Bytes fields, std::shared_ptr<const GopMesh> mesh,
                                     const StreamLimits& limits, std::uint32_t most_components);
 

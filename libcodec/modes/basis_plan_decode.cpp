@@ -14,6 +14,7 @@ namespace tvg {
 namespace {
 
 constexpr const char* kSection = "§7.8.1";
+constexpr Fault kNoMemory{"", "out of memory", ErrorCode::kOutOfMemory};
 
 std::size_t groups_of(std::uint32_t components) {
   return (std::size_t{components} + CoefficientCoder::kPlanes - 1) / CoefficientCoder::kPlanes;
@@ -30,22 +31,24 @@ Fault decode_group(Bytes bytes, CoefficientCoder& coefficients, std::span<Quad> 
 }
 
 Fault decode_planes(ByteReader& reader, BasisPlan& plan, std::uint32_t most_components) {
-  constexpr Fault kNoMemory{"", "out of memory", ErrorCode::kOutOfMemory};
   const std::size_t vertices = plan.mesh->coded.gates.size();
   const std::uint32_t components = plan.header.components;
-  if (!plan.planes.reserve(vertices, components)) return kNoMemory;
+  const std::size_t groups = groups_of(components), wanted = groups_of(std::min(components, most_components));
+  // Of planes that are left out there is nothing to add up.
+  const std::size_t kept = std::min<std::size_t>(components, wanted * CoefficientCoder::kPlanes);
+  if (!plan.planes.reserve(vertices, kept)) return kNoMemory;
   if (!can_allocate(vertices * (CoefficientCoder::kBytesPerVertex + sizeof(Quad)) +
                     CoefficientCoder::kMostOtherBytes))
     return kNoMemory;
   CoefficientCoder coefficients(*plan.mesh->pyramid, plan.flags, plan.header.nested_bits());
   std::vector<Quad> planes(vertices);
   Hasher digest;
-  const std::size_t groups = groups_of(components), wanted = groups_of(std::min(components, most_components));
   for (std::size_t group = 0; group < groups; ++group) {
     const Bytes bytes = reader.bytes(reader.varint());
     if (!reader.ok()) return {kSection, "the planes of a basis are longer than its chunk"};
     if (group >= wanted) continue;
-    const std::size_t count = std::min<std::size_t>(CoefficientCoder::kPlanes, components - 4 * group);
+    const std::size_t count =
+        std::min(CoefficientCoder::kPlanes, components - CoefficientCoder::kPlanes * group);
     if (const Fault fault = decode_group(bytes, coefficients, planes, count)) return fault;
     if (!plan.planes.put(group, planes)) return kNoMemory;
     for (const Quad& quad : planes) digest.update(std::span<const std::int32_t>(quad));
@@ -53,7 +56,7 @@ Fault decode_planes(ByteReader& reader, BasisPlan& plan, std::uint32_t most_comp
   const std::uint64_t expected = reader.u64();
   if (!reader.finished()) return {kSection, "the planes of a basis do not fill its chunk exactly"};
   if (wanted == groups && digest.value() != expected)
-    return {"§7.8.1", "a basis decoded to other values than were encoded", ErrorCode::kDigestMismatch};
+    return {kSection, "a basis decoded to other values than were encoded", ErrorCode::kDigestMismatch};
   return {};
 }
 
@@ -61,17 +64,12 @@ Fault decode_planes(ByteReader& reader, BasisPlan& plan, std::uint32_t most_comp
 Fault decode(ByteReader& reader, const StreamLimits& limits, BasisPlan& plan, std::uint32_t most_components) {
   if (const Fault fault = read_basis_header(reader, limits, plan.header)) return fault;
   if (!plan.mesh->pyramid) return {kSection, "a basis is for a mesh that has no reference shape"};
-  if (!try_reserve(plan.scales, plan.header.scales.size()))
-    return {"", "out of memory", ErrorCode::kOutOfMemory};
+  if (!try_reserve(plan.scales, plan.header.scales.size())) return kNoMemory;
   plan.scales.assign(plan.header.scales.begin(), plan.header.scales.end());
   if (plan.header.nested_bits() > 0) {
-    if (!try_resize(plan.flags, plan.mesh->coded.gates.size()))
-      return {"", "out of memory", ErrorCode::kOutOfMemory};
-    RangeDecoder coder(plan.header.flags);
-    code_flags(coder, plan.mesh->coded.gates, plan.flags);
-    if (!coder.finished()) return {"§6.1", "the importance flags do not fill their bytes exactly"};
+    if (!try_resize(plan.flags, plan.mesh->coded.gates.size())) return kNoMemory;
+    if (const Fault fault = decode_flags(plan.header.flags, plan.mesh->coded.gates, plan.flags)) return fault;
   }
-  plan.flag_bytes = plan.header.flags.size();
   plan.header.scales = plan.scales;
   plan.header.flags = {};
   return decode_planes(reader, plan, most_components);

@@ -10,6 +10,14 @@ constexpr const char* kSection = "§4.5.1";
 
 }  // namespace
 
+GopInfo gop_info_of(const GopHeader& header, Mode mode) {
+  GopInfo info;
+  info.first_frame = info.source_frame = header.first_frame;
+  info.frame_count = header.frame_count;
+  info.mode = mode;
+  return info;
+}
+
 void write_channels(ByteWriter& writer) {
   writer.varint(1);
   writer.varint(kPositionsChannel);

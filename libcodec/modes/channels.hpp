@@ -2,12 +2,14 @@
 #include "base/byte_io.hpp"
 #include "base/checksum.hpp"
 #include "base/stream_error.hpp"
+#include "container/gop_header.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include <tvg/decoder.hpp>
 #include <tvg/types.hpp>
 
 // What the frames of a GOP are made of, whatever its mode (format-spec §4.5.1 to §4.5.3).
@@ -23,6 +25,9 @@ struct Channels {
   std::array<std::uint64_t, kMost> numbers = {kPositionsChannel};
   std::size_t count = 1;
 };
+
+/// What a header says of a GOP in this mode before the mode's own fields are read.
+GopInfo gop_info_of(const GopHeader& header, Mode mode);
 
 /// As the fields of a mode begin.
 void write_channels(ByteWriter& writer);

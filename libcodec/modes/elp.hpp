@@ -1,10 +1,9 @@
 #pragma once
 #include "base/checksum.hpp"
+#include "modes/position_digest.hpp"
 #include "planes/plane_coder.hpp"
 #include "planes/pyramid_coder.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,17 +37,10 @@ bool code_frame(Coder& coder, Predictor predictor, PositionCoder& positions,
   return inside;
 }
 
-/// Adds a frame to the digest of positions (§7.6): x, y and z of each vertex.
+/// Adds a frame to the digest of positions: its padded indices.
 inline void add_to_digest(Hasher& digest, std::span<const Quad> indices) {
-  constexpr std::size_t kAtOnce = 256;
-  std::array<std::int32_t, 3 * kAtOnce> values;
-  while (!indices.empty()) {
-    const std::size_t count = std::min(kAtOnce, indices.size());
-    for (std::size_t v = 0; v < count; ++v)
-      std::copy_n(indices[v].begin(), 3, values.begin() + 3 * static_cast<std::ptrdiff_t>(v));
-    digest.update(std::span<const std::int32_t>(values).first(3 * count));
-    indices = indices.subspan(count);
-  }
+  add_positions_to_digest(digest, indices.size(),
+                          [indices](std::size_t v, std::size_t axis) { return indices[v][axis]; });
 }
 
 }  // namespace tvg

@@ -35,9 +35,7 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const GopMesh>
   for (std::uint32_t v = 0; v < vertex_count; ++v) turn_[mesh_->coded.order[v]] = v;
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
-    RangeDecoder coder(elp.flags);
-    code_flags(coder, mesh_->coded.gates, flags_);
-    if (!coder.finished()) return malformed("§6.1", "the importance flags do not fill their bytes exactly");
+    if (const Fault fault = decode_flags(elp.flags, mesh_->coded.gates, flags_)) return error_of(fault);
     info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));
   }
   predictors_ = elp.predictors;

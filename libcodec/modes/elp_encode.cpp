@@ -1,21 +1,12 @@
 #include "modes/elp_encode.hpp"
 
-#include "quantization/flag_coder.hpp"
+#include "modes/gop_flags_encode.hpp"
 
 #include <utility>
 
 namespace tvg {
 
 namespace {
-
-/// Flags in traversal order; empty when there is one lattice only.
-std::vector<std::uint8_t> flags_in_traversal_order(const GopInput& input, const CodedMesh& mesh) {
-  std::vector<std::uint8_t> flags;
-  if (!input.lattice.hybrid()) return flags;
-  flags.resize(mesh.order.size());
-  for (std::size_t v = 0; v < flags.size(); ++v) flags[v] = input.flags[mesh.order[v]];
-  return flags;
-}
 
 bool may_use_pyramid(Predictor predictor) {
   return predictor == Predictor::kPyramid || predictor == Predictor::kAuto;
@@ -33,13 +24,7 @@ ElpEncoder::ElpEncoder(const GopInput& input, const GopMesh& mesh)
 
 // format-spec §7.4
 std::vector<std::uint8_t> ElpEncoder::finish() {
-  std::vector<std::uint8_t> coded_flags;
-  if (input_.lattice.hybrid()) {
-    RangeEncoder coder;
-    code_flags(coder, mesh_.coded.gates, flags_);
-    coded_flags = coder.finish();
-  }
-  return write_elp_header(predictors_, input_.lattice, coded_flags);
+  return write_elp_header(predictors_, input_.lattice, encode_flags(mesh_.coded, flags_));
 }
 
 // format-spec §7.5

@@ -66,11 +66,7 @@ Status read_elp_header(const GopHeader& header, ElpHeader& elp) {
 }
 
 GopInfo gop_info(const GopHeader& header, const ElpHeader& elp) {
-  GopInfo info;
-  info.mode = Mode::kElp;
-  info.first_frame = header.first_frame;
-  info.source_frame = header.first_frame;
-  info.frame_count = header.frame_count;
+  GopInfo info = gop_info_of(header, Mode::kElp);
   for (std::size_t p = 0; p < info.predictors.size(); ++p)
     info.predictors[p] = elp.predictors.has(static_cast<Predictor>(p));
   info.fine_bits = elp.lattice.fine_bits;

@@ -45,11 +45,7 @@ Status read_lossless_header(const GopHeader& header, LosslessHeader& lossless) {
 
 GopInfo lossless_gop_info(const GopHeader& header) {
   constexpr int kFloatBits = 32;
-  GopInfo info;
-  info.first_frame = header.first_frame;
-  info.source_frame = header.first_frame;
-  info.frame_count = header.frame_count;
-  info.mode = Mode::kLossless;
+  GopInfo info = gop_info_of(header, Mode::kLossless);
   info.predictors[static_cast<std::size_t>(Predictor::kPyramid)] = true;
   info.fine_bits = info.coarse_bits = kFloatBits;
   return info;

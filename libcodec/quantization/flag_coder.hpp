@@ -1,6 +1,9 @@
 #pragma once
+#include "base/byte_io.hpp"
+#include "base/stream_error.hpp"
 #include "connectivity/connectivity.hpp"
 #include "entropy/adaptive_models.hpp"
+#include "entropy/range_coder.hpp"
 
 #include <array>
 #include <cstdint>
@@ -20,6 +23,14 @@ void code_flags(Coder& coder, std::span<const Gate> gates, std::span<std::uint8_
         gate.o == kNoVertex ? 4 : std::size_t{flags[gate.n]} + flags[gate.p] + flags[gate.o];
     flags[v] = coder.code(models[context], flags[v] != 0) ? 1 : 0;
   }
+}
+
+/// Decodes the flags that these bytes hold; `flags` has a place for each gate.
+inline Fault decode_flags(Bytes bytes, std::span<const Gate> gates, std::span<std::uint8_t> flags) {
+  RangeDecoder coder(bytes);
+  code_flags(coder, gates, flags);
+  if (!coder.finished()) return {"§6.1", "the importance flags do not fill their bytes exactly"};
+  return {};
 }
 
 }  // namespace tvg

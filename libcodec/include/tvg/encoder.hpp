@@ -71,6 +71,8 @@ struct EncodeReport {
 
 /// The encoder, pushed: set the mesh, add its frames, finish; the stream goes to a sink.
 ///
+/// What is said here of a GOP is true of a period in mode basis, all of whose GOPs are encoded together.
+///
 /// A GOP is encoded as soon as its last frame is there and goes to the sink, in order, from the first call
 /// after it is complete: with one thread from the call that completes it. The bytes do not depend on the
 /// number of threads. Memory is in proportion to `threads` + 2 GOPs. Calls come from one thread at a time;
@@ -106,10 +108,10 @@ class Encoder {
   std::unique_ptr<State> state_;
 };
 
-/// Pushes a sequence through an encoder. Where the options have a box or a step, the source is read once,
-/// from where it stands, and not rewound. Otherwise a source that can be rewound is read twice, first for the
-/// bounding box of the whole sequence. Errors: kInvalidArgument for options out of range, kInvalidInput for
-/// geometry that cannot be encoded, and what source and sink return.
+/// Pushes a sequence through an encoder. Where the options have a box or a step and no largest error, or are
+/// lossless, the source is read once, from where it stands, and not rewound. Otherwise a source that can be
+/// rewound is read twice, first for the bounding box of the whole sequence. Errors: kInvalidArgument for
+/// options out of range, kInvalidInput for geometry that cannot be encoded, and what source and sink return.
 Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                             const EncodeProgress& progress = {});
 
