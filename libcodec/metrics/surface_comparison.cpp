@@ -109,6 +109,7 @@ class SurfaceComparison::Accumulator {
   Accumulator(const Mesh& original, const Mesh& other, const SurfaceSettings& settings)
       : original_(original), other_(other), settings_(settings) {}
 
+  void set_other(const Mesh& other) { other_ = Side(other); }
   bool measures_next() const { return settings_.stride != 0 && frames_ % settings_.stride == 0; }
 
   Status add_frame(std::span<const float> original, std::span<const float> other) {
@@ -194,6 +195,10 @@ SurfaceComparison::SurfaceComparison(const Mesh& original, const Mesh& other, co
 SurfaceComparison::~SurfaceComparison() = default;
 SurfaceComparison::SurfaceComparison(SurfaceComparison&&) noexcept = default;
 SurfaceComparison& SurfaceComparison::operator=(SurfaceComparison&&) noexcept = default;
+
+void SurfaceComparison::set_other(const Mesh& other) {
+  accumulator_->set_other(other);
+}
 
 Status SurfaceComparison::add_frame(std::span<const float> original, std::span<const float> other) {
   return accumulator_->add_frame(original, other);

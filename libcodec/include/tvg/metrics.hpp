@@ -148,6 +148,9 @@ class SurfaceComparison {
   SurfaceComparison(SurfaceComparison&&) noexcept;
   SurfaceComparison& operator=(SurfaceComparison&&) noexcept;
 
+  /// The mesh of the other side's frames that follow, where it changes.
+  void set_other(const Mesh& other);
+
   /// Takes the next frame of both: float32 [vertex][xyz] of the mesh of each. Fails with kInvalidArgument
   /// where a size or a setting is wrong, kInvalidInput where a position is not finite, or a mesh has no faces
   /// or names a vertex it does not have; a frame that fails is not counted.
