@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -103,6 +104,7 @@ class SimplifyJob {
       check_measure(arguments.cost, options_.importance, *opened_.source, arguments.input.inputs);
     if (!arguments.quiet) print_notes(opened_);
     options_.vertex_counts = {wanted_vertices()};
+    output_ = std::make_unique<SimplifyOutput>(arguments.output, opened_.first_frame);
   }
 
   void run() {
@@ -128,8 +130,6 @@ class SimplifyJob {
     const InputFiles inputs = files_of(arguments_.input, arguments_.cost.weights());
     inputs.check_output(arguments_.report);
     if (is_stream_file(arguments_.output)) return inputs.check_output(arguments_.output);
-    // Where the name will not do, this says so before the work is done.
-    static_cast<void>(open_sink(arguments_.output, {}));
     for (const std::string& output : sink_outputs(arguments_.output, {})) inputs.check_output(output);
   }
 
@@ -212,7 +212,7 @@ class SimplifyJob {
     SimplifiedSource source(original, made.meshes.back());
     rewind(source);
     ProgressBar writing("writing", arguments_.quiet);
-    std::string written = write_frames(source, arguments_.output, encode_, writing);
+    std::string written = output_->write(source, encode_, writing);
     writing.clear();
     if (!arguments_.no_distance) measure_distance(source);
     return written;
@@ -252,7 +252,7 @@ class SimplifyJob {
     encode_.box = box_around(held_.sequence.frames);
     encode_.max_vertices = mesh.vertex_count;
     encode_.max_faces = static_cast<std::uint32_t>(mesh.faces.size());
-    ChangingMeshOutput output(arguments_.output, encode_, held_.total);
+    output_->begin(encode_, held_.total);
     SurfaceSettings settings;
     settings.stride = distance_stride();
     SurfaceComparison comparison(mesh, mesh, settings);
@@ -268,7 +268,7 @@ class SimplifyJob {
       add_hierarchy(report_, made, numbers_in_input({held_.numbers[i]}));
       FramePositions positions(3 * std::size_t{simple.mesh.vertex_count});
       gather(simple.vertices, frame, positions);
-      output.write(simple.mesh, positions);
+      output_->add(simple.mesh, positions);
       most = std::max(most, simple.mesh.vertex_count);
       if (!arguments_.no_distance) {
         comparison.set_other(simple.mesh);
@@ -280,7 +280,7 @@ class SimplifyJob {
     bar.clear();
     tell_of_target(most);
     if (!arguments_.no_distance) report_.distance = comparison.report();
-    return output.finish();
+    return output_->finish();
   }
 
   void tell_of_target(std::uint32_t vertices) const {
@@ -297,6 +297,7 @@ class SimplifyJob {
   SimplifyOptions options_;
   EncodeOptions encode_;
   OpenedInput opened_;
+  std::unique_ptr<SimplifyOutput> output_;
   FramesInMemory held_;
   SimplifyReport report_;
 };

@@ -1,6 +1,4 @@
 #pragma once
-#include "encoder/live/stream_output.hpp"
-
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,31 +10,39 @@ namespace tvg::cli {
 
 class FrameSink;
 class ProgressBar;
+class StreamOutput;
 
-/// Writes the frames of a source to what `path` names: a .tvg, which is made with `options`, or any format
-/// that decoding writes. Says in a few words what was written. Throws ToolError.
-std::string write_frames(FrameSource& source, const std::string& path, const EncodeOptions& options,
-                         ProgressBar& bar);
-
-/// The same for frames that each bring a mesh of their own.
-class ChangingMeshOutput {
+/// Where simplified frames go: a .tvg, or any format that decoding writes. Failures are ToolErrors that name
+/// the file; no file appears under its name before it is complete.
+class SimplifyOutput {
  public:
-  /// `options`: with the box of all frames and bounds for all meshes.
-  ChangingMeshOutput(std::string path, const EncodeOptions& options, std::uint64_t frame_count);
-  ~ChangingMeshOutput();
+  /// Opens it, so that a name that will not do is known before the work is done. `first_number`: that of the
+  /// first frame.
+  SimplifyOutput(std::string path, std::uint64_t first_number);
+  ~SimplifyOutput();
 
+  /// Writes all frames of a source. `options`: of a .tvg. Says in a few words what was written.
+  std::string write(FrameSource& source, const EncodeOptions& options, ProgressBar& bar);
+
+  /// Instead: frames that each bring a mesh of their own. `options`: of a .tvg, with the box of all frames
+  /// and bounds for all meshes; their metadata go with the frames whatever the format.
+  void begin(const EncodeOptions& options, std::uint64_t frame_count);
   /// `positions`: [vertex][xyz].
-  void write(const Mesh& mesh, std::span<const float> positions);
+  void add(const Mesh& mesh, std::span<const float> positions);
   /// Completes the output and says in a few words what was written.
   std::string finish();
 
  private:
+  std::string words(std::uint64_t frames) const;
+  std::string finish(const Result<EncodeReport>& report);
+  ByteSink bytes() const;
+
   std::string path_;
-  Metadata metadata_;
-  std::uint64_t frame_count_;
-  std::unique_ptr<FrameSink> sink_;
-  std::unique_ptr<StreamOutput> stream_;
+  std::unique_ptr<FrameSink> sink_;       // of what is no .tvg
+  std::unique_ptr<StreamOutput> stream_;  // of a .tvg
   std::optional<Encoder> encoder_;
+  Metadata metadata_;
+  std::uint64_t frame_count_ = 0;
 };
 
 }  // namespace tvg::cli
