@@ -45,6 +45,8 @@ FoldCheck::FoldCheck(const MovingPositions& positions, double largest_turn)
       cosine_(cosine_of_degrees(largest_turn)),
       chord_cosine_(cosine_of_degrees(largest_turn / 2)),
       sum_(3 * positions.frame_count()),
+      least_along_(positions.frame_count()),
+      has_sum_(positions.frame_count()),
       normal_(3 * positions.frame_count()) {}
 
 void FoldCheck::begin(std::uint32_t center, const Ring& ring) {
@@ -72,6 +74,25 @@ void FoldCheck::begin(std::uint32_t center, const Ring& ring) {
     }
     angles_[i] /= static_cast<double>(frames);
   }
+  judge_star();
+}
+
+void FoldCheck::judge_star() {
+  const std::size_t frames = positions_.frame_count();
+  const auto cosine = static_cast<float>(cosine_);
+  for (std::size_t f = 0; f < frames; ++f) {
+    const float whole = std::sqrt(dot(sum_.data(), sum_.data(), f, frames));
+    has_sum_[f] = whole > 0 ? 1 : 0;
+    least_along_[f] = cosine * whole;
+  }
+  for (std::size_t i = 0; i < ring_->faces.size(); ++i) {
+    const float* normal = star_.data() + i * 3 * frames;
+    for (std::size_t f = 0; f < frames; ++f) {
+      const float length = std::sqrt(dot(normal, normal, f, frames));
+      const float along = length > 0 ? dot(normal, sum_.data(), f, frames) / length : least_along_[f];
+      least_along_[f] = std::min(least_along_[f], along);
+    }
+  }
 }
 
 bool FoldCheck::allows_chord() const {
@@ -97,17 +118,15 @@ bool FoldCheck::allows_face(const RingTriangle& triangle) {
   const float* b = positions_.path(ring_->origins[triangle[1]]);
   const float* c = positions_.path(ring_->origins[triangle[2]]);
   area_normals(a, b, c, frames, normal_.data());
-  const auto smallest = static_cast<float>(cosine_);
   int bad = 0;
   for (std::size_t f = 0; f < frames; ++f) {
     const float length = std::sqrt(dot(normal_.data(), normal_.data(), f, frames));
-    const float whole = std::sqrt(dot(sum_.data(), sum_.data(), f, frames));
     const float longest = std::max({squared_distance(a, b, f, frames), squared_distance(b, c, f, frames),
                                     squared_distance(c, a, f, frames)});
     // Where the faces that go have no area there is nothing to turn away from.
-    const bool turned = dot(normal_.data(), sum_.data(), f, frames) < smallest * length * whole;
+    const bool turned = dot(normal_.data(), sum_.data(), f, frames) < least_along_[f] * length;
     const bool thin = length <= kThinnestFace * longest;
-    bad |= static_cast<int>(whole > 0) & (static_cast<int>(turned) | static_cast<int>(thin));
+    bad |= static_cast<int>(has_sum_[f]) & (static_cast<int>(turned) | static_cast<int>(thin));
   }
   return bad == 0;
 }

@@ -88,10 +88,21 @@ bool IntersectionCheck::allows(const Ring& ring, std::span<const RingTriangle> t
   return true;
 }
 
-bool IntersectionCheck::met_before(std::size_t frame, const Ring& ring, const SpaceTriangle& other) const {
-  return std::any_of(ring.faces.begin(), ring.faces.end(), [&](std::uint32_t face) {
-    return triangles_meet(triangle(frame, mesh_.original_face(face)), other);
-  });
+bool IntersectionCheck::met_before(std::size_t frame, const Ring& ring, const Face& face) const {
+  const auto touches = [&face](std::uint32_t vertex) {
+    return std::find(face.begin(), face.end(), vertex) != face.end();
+  };
+  for (const std::uint32_t f : found_) {
+    if (!mesh_.has_face(f) || std::find(ring.faces.begin(), ring.faces.end(), f) != ring.faces.end())
+      continue;
+    const Face near = mesh_.original_face(f);
+    if (std::none_of(near.begin(), near.end(), touches)) continue;
+    const SpaceTriangle other = triangle(frame, near);
+    for (const std::uint32_t gone : ring.faces) {
+      if (triangles_meet(triangle(frame, mesh_.original_face(gone)), other)) return true;
+    }
+  }
+  return false;
 }
 
 bool IntersectionCheck::allows_in(std::size_t frame, const Ring& ring, std::span<const Face> faces) {
@@ -120,7 +131,7 @@ bool IntersectionCheck::allows_in(std::size_t frame, const Ring& ring, std::span
     const SpaceTriangle other = triangle(frame, old);
     for (std::size_t i = 0; i < fresh.size(); ++i) {
       if (!boxes[i].overlaps(old_box) || !triangles_meet(fresh[i], other)) continue;
-      if (!met_before(frame, ring, other)) return false;
+      if (!met_before(frame, ring, old)) return false;
       break;
     }
   }

@@ -12,7 +12,7 @@
 namespace tvg {
 
 /// Says of a hole, in some frames, whether faces that fill it pass through others where those that were there
-/// did not.
+/// did not: through these, or through such as share a vertex with them.
 class IntersectionCheck {
  public:
   /// Looks at so many of the frames, evenly spread, the first and the last among them; at all where there are
@@ -32,7 +32,7 @@ class IntersectionCheck {
     return points_.data() + 3 * (frame_count_ * vertex + frame);
   }
   bool allows_in(std::size_t frame, const Ring& ring, std::span<const Face> faces);
-  bool met_before(std::size_t frame, const Ring& ring, const SpaceTriangle& other) const;
+  bool met_before(std::size_t frame, const Ring& ring, const Face& face) const;
 
   const HalfEdgeMesh& mesh_;
   std::size_t frame_count_ = 0;

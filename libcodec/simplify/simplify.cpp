@@ -1,6 +1,7 @@
 #include "base/errors.hpp"
 #include "simplify/levels_of_removal.hpp"
 #include "simplify/priority.hpp"
+#include "simplify/removal_history.hpp"
 #include "simplify/vertex_levels.hpp"
 #include "simplify/vertex_remover.hpp"
 #include "source/source_checks.hpp"
@@ -92,6 +93,7 @@ Result<Simplification> simplify(const Mesh& mesh, std::span<const FramePositions
   result.levels = std::move(run.levels);
   for (LevelsOfRemoval::Kept& kept : run.kept) result.meshes.push_back(std::move(kept.mesh));
   result.removed = std::move(run.removed);
+  result.history = std::make_shared<const RemovalHistory>(remover.mesh(), remover.take_removals());
   return result;
 }
 
