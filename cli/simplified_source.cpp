@@ -6,7 +6,12 @@ namespace tvg::cli {
 
 Result<bool> SimplifiedSource::read_frame(std::span<float> positions) {
   Result<bool> read = original_.read_frame(frame_);
-  if (read && *read) gather(simplified_.vertices, frame_, positions);
+  if (!read || !*read) return read;
+  if (places_.empty()) {
+    gather(vertices_, frame_, positions);
+  } else {
+    positions_of(original_.mesh(), places_, frame_, positions);
+  }
   return read;
 }
 

@@ -6,14 +6,16 @@
 
 namespace tvg::cli {
 
-/// The frames of a source on some of its vertices.
+/// The frames of a source on some of its vertices, or at places of its surface.
 class SimplifiedSource final : public FrameSource {
  public:
-  /// Both must outlive it. The original is to be rewound by the caller.
+  /// Both must outlive it, as below. The original is to be rewound by the caller.
   SimplifiedSource(FrameSource& original, const SimplifiedMesh& simplified)
-      : original_(original), simplified_(simplified), frame_(3 * std::size_t{original.mesh().vertex_count}) {}
+      : SimplifiedSource(original, simplified.mesh, simplified.vertices, {}) {}
+  SimplifiedSource(FrameSource& original, const Remesh& remeshed)
+      : SimplifiedSource(original, remeshed.mesh, {}, remeshed.places) {}
 
-  const Mesh& mesh() const override { return simplified_.mesh; }
+  const Mesh& mesh() const override { return mesh_; }
   Metadata metadata() const override { return original_.metadata(); }
   std::optional<std::uint64_t> frame_count() const override { return original_.frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override;
@@ -24,8 +26,18 @@ class SimplifiedSource final : public FrameSource {
   const FramePositions& original_frame() const { return frame_; }
 
  private:
+  SimplifiedSource(FrameSource& original, const Mesh& mesh, std::span<const std::uint32_t> vertices,
+                   std::span<const SurfacePlace> places)
+      : original_(original),
+        mesh_(mesh),
+        vertices_(vertices),
+        places_(places),
+        frame_(3 * std::size_t{original.mesh().vertex_count}) {}
+
   FrameSource& original_;
-  const SimplifiedMesh& simplified_;
+  const Mesh& mesh_;
+  std::span<const std::uint32_t> vertices_;  // of the original; empty where there are places
+  std::span<const SurfacePlace> places_;
   FramePositions frame_;
 };
 

@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/number_option.hpp"
 #include "cli/simplify_job.hpp"
+#include "tool/option_values.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,6 +32,17 @@ void add_target_options(CLI::App& command, SimplifyArguments& arguments) {
       command, "--lambda", {0, 1}, [&arguments](double lambda) { arguments.lambda = lambda; },
       fmt::format("of --priority maps: weight of the area against the curvature (default {})",
                   SimplifyOptions().lambda));
+  add_count(
+      command, "--remesh",
+      [&arguments](std::uint64_t levels) {
+        if (levels > kMaxRemeshLevels)
+          fail_option("--remesh", std::to_string(levels), fmt::format("at most {}", kMaxRemeshLevels));
+        arguments.remesh = static_cast<std::uint32_t>(levels);
+      },
+      "then cut every face in four so often, with the new vertices on the original");
+  add_number(
+      command, "--remesh-distance", {0}, [&arguments](double most) { arguments.remesh_distance = most; },
+      "cut only where the original is further away than this, in the mesh's units");
   command.add_flag(
       "--per-keyframe", arguments.per_keyframe,
       "simplify every frame by itself, as the paper does, instead of all with one connectivity; for "

@@ -11,6 +11,7 @@
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
@@ -48,6 +49,10 @@ void check_options(const SimplifyArguments& arguments) {
   }
   if (arguments.by_maps() && arguments.cost.smoothing)
     fail_usage("--smooth is for criteria, and --priority maps has none");
+  if (arguments.remesh && arguments.per_keyframe)
+    fail_usage("--remesh goes with one mesh for all frames, and --per-keyframe makes one for each");
+  if (arguments.remesh_distance && !arguments.remesh)
+    fail_usage("--remesh-distance says where --remesh LEVELS cuts: give that too");
   const bool stream = is_stream_file(arguments.output);
   for (const auto& [option, given] :
        {std::pair("--bits", !arguments.bits.empty()), std::pair("--mode", !arguments.mode.empty())}) {
@@ -91,6 +96,33 @@ EncodeOptions encode_options(const SimplifyArguments& arguments, std::uint64_t f
   return options;
 }
 
+/// Edges that are no inner edge or boundary of a surface: of more than two faces, or of two that are turned
+/// against each other.
+std::size_t count_broken_edges(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 3>> sides;  // lower and higher vertex, and whether it goes down
+  for (const Face& face : mesh.faces) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = face[k], to = face[(k + 1) % 3];
+      if (from != to) sides.push_back({std::min(from, to), std::max(from, to), from > to ? 1u : 0u});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  std::size_t broken = 0;
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    while (end < sides.size() && sides[end][0] == sides[i][0] && sides[end][1] == sides[i][1]) ++end;
+    if (end - i > 2 || (end - i == 2 && sides[i][2] == sides[i + 1][2])) ++broken;
+  }
+  return broken;
+}
+
+void tell_of_locked_vertices(const Mesh& mesh) {
+  const std::size_t broken = count_broken_edges(mesh);
+  if (broken == 0) return;
+  fmt::print(stderr,
+             "note: {} {} more than two faces, or faces turned against each other: vertices there stay\n",
+             broken, broken == 1 ? "edge has" : "edges have");
+}
+
 class SimplifyJob {
  public:
   explicit SimplifyJob(const SimplifyArguments& arguments)
@@ -103,6 +135,7 @@ class SimplifyJob {
     if (!arguments.by_maps())
       check_measure(arguments.cost, options_.importance, *opened_.source, arguments.input.inputs);
     if (!arguments.quiet) print_notes(opened_);
+    if (!arguments.quiet) tell_of_locked_vertices(opened_.source->mesh());
     options_.vertex_counts = {wanted_vertices()};
     output_ = std::make_unique<SimplifyOutput>(arguments.output, opened_.first_frame);
   }
@@ -209,7 +242,17 @@ class SimplifyJob {
 
     SequenceSource in_memory(held_.sequence);
     FrameSource& original = held_.all() ? in_memory : *opened_.source;
-    SimplifiedSource source(original, made.meshes.back());
+    if (!arguments_.remesh) return write_whole({original, made.meshes.back()});
+    const Result<Remesh> remeshed = remesh(made, held_.sequence.mesh, held_.sequence.frames,
+                                           {*arguments_.remesh, arguments_.remesh_distance});
+    if (!remeshed) throw tool_error(names_, remeshed.error());
+    report_.remeshed_vertices = remeshed->mesh.vertex_count;
+    report_.remeshed_faces = remeshed->mesh.faces.size();
+    return write_whole({original, *remeshed});
+  }
+
+  /// Writes all frames, and measures how far they are from the original.
+  std::string write_whole(SimplifiedSource source) {
     rewind(source);
     ProgressBar writing("writing", arguments_.quiet);
     std::string written = output_->write(source, encode_, writing);

@@ -17,6 +17,8 @@ struct SimplifyArguments {
   CostArguments cost;  ///< `maps` among its criteria stands for Eq. 7
   std::optional<double> lambda;
   bool per_keyframe = false;
+  std::optional<std::uint32_t> remesh;  ///< levels
+  std::optional<double> remesh_distance;
   std::string bits;
   std::string mode;
   std::string report;

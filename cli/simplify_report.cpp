@@ -130,6 +130,9 @@ void print_simplify_report(const SimplifyReport& report) {
   const auto worst = std::max_element(errors.begin(), errors.end());
   fmt::print(stderr, "  quadric error {:.6g}, worst {:.6g} (frame {})\n", mean(errors), *worst,
              report.results[static_cast<std::size_t>(worst - errors.begin())].frame);
+  if (report.remeshed_vertices > 0)
+    fmt::print(stderr, "  remeshed to {} vertices, {} faces\n", report.remeshed_vertices,
+               report.remeshed_faces);
   if (!report.distance) return;
   const SurfaceReport& distance = *report.distance;
   const auto line = [&report](const char* name, double usual, double highest, std::uint64_t frame) {
@@ -156,6 +159,8 @@ nlohmann::json json_of(const SimplifyReport& report) {
                          {"frames", report.frames},
                          {"first_frame", report.first_frame},
                          {"per_keyframe", report.per_keyframe},
+                         {"remeshed_vertices", nullptr},
+                         {"remeshed_faces", nullptr},
                          {"refused", refused(report)},
                          {"mean_quadric_error", mean(errors)},
                          {"max_quadric_error", *std::max_element(errors.begin(), errors.end())},
@@ -175,6 +180,10 @@ nlohmann::json json_of(const SimplifyReport& report) {
                                {"faces", frame.faces},
                                {"refused", frame.refused},
                                {"quadric_error", frame.quadric_error}});
+  }
+  if (report.remeshed_vertices > 0) {
+    json["remeshed_vertices"] = report.remeshed_vertices;
+    json["remeshed_faces"] = report.remeshed_faces;
   }
   if (report.distance) json["distance"] = json_of(*report.distance);
   return json;

@@ -27,6 +27,7 @@ struct SimplifyReport {
   std::uint64_t frames = 0;       ///< of the input
   std::uint64_t first_frame = 0;  ///< as the input numbers it; those of `distance` count from it
   bool per_keyframe = false;      ///< every frame has a hierarchy of its own; `levels` is then empty
+  std::uint64_t remeshed_vertices = 0, remeshed_faces = 0;  ///< 0 where nothing was remeshed
   std::vector<SimplifyLevel> levels;
   std::vector<SimplifiedFrame> results;   ///< at least one
   std::optional<SurfaceReport> distance;  ///< from the original

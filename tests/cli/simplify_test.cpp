@@ -140,6 +140,28 @@ TEST_F(Simplify, CanTakeEveryFrameByItself) {
   expect_failure(kSimplify + "--per-keyframe --ratio 4 -o k.pc2", 1, "cache holds one mesh");
 }
 
+TEST_F(Simplify, RemeshingPutsVerticesOfASubdivisionOnTheOriginal) {
+  const std::string simplify = kSimplify + "-o r.tvg --ratio 6 --bits 16 --json ";
+  const nlohmann::json coarse = json(simplify), once = json(simplify + "--remesh 1");
+  EXPECT_EQ(once["remeshed_faces"], 4 * coarse["faces"].get<int>());
+  EXPECT_LT(once["distance"]["rms"], coarse["distance"]["rms"]);
+  EXPECT_EQ(json("tvg info r.tvg --json")["vertices"], once["remeshed_vertices"]);
+  const nlohmann::json some = json(simplify + "--remesh 3 --remesh-distance 0.3");
+  EXPECT_LT(some["remeshed_faces"], 64 * coarse["faces"].get<int>());
+  expect_failure(kSimplify + "-o r.tvg --ratio 6 --remesh 11", 1, "--remesh 11: at most 10");
+  expect_failure(kSimplify + "-o r.tvg --ratio 6 --remesh-distance 1", 1, "--remesh LEVELS");
+  expect_failure(kSimplify + "-o r.tvg --ratio 6 --remesh 1 --per-keyframe", 1, "--per-keyframe");
+}
+
+TEST_F(Simplify, SaysWhatKeepsVerticesOfABrokenMesh) {
+  const Sequence soup = corpus::find_corpus_entry("soup")->make({600, 3}).sequence;
+  corpus::write_obj(folder_.path("soup.obj"), soup);
+  corpus::write_pc2(folder_.path("soup.pc2"), soup);
+  const Outcome said = good("tvg simplify soup.obj soup.pc2 -o soup.tvg --ratio 3");
+  EXPECT_THAT(said.err, HasSubstr("more than two faces, or faces turned against each other: vertices there"));
+  good("tvg verify soup.tvg -q");
+}
+
 TEST_F(Simplify, OneFrameIsEnough) {
   good("tvg simplify hand.obj -o small.ply --ratio 4 -q");
   EXPECT_TRUE(exists("small.ply"));
