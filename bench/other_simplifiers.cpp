@@ -49,23 +49,6 @@ std::vector<SurfacePlace> nearest_places(const std::vector<Face>& faces, const F
   return places;
 }
 
-/// A mesh of faces that name vertices of the original.
-SimplifiedMesh made_of(std::vector<Face> faces, const FramePositions& frame) {
-  SimplifiedMesh result;
-  result.places = nearest_places(faces, frame);
-  for (const Face& face : faces) result.vertices.insert(result.vertices.end(), face.begin(), face.end());
-  std::sort(result.vertices.begin(), result.vertices.end());
-  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
-  for (Face& face : faces) {
-    for (std::uint32_t& v : face) {
-      v = static_cast<std::uint32_t>(std::lower_bound(result.vertices.begin(), result.vertices.end(), v) -
-                                     result.vertices.begin());
-    }
-  }
-  result.mesh = {static_cast<std::uint32_t>(result.vertices.size()), std::move(faces)};
-  return result;
-}
-
 std::size_t used(const std::vector<unsigned>& indices) {
   std::vector<unsigned> sorted = indices;
   std::sort(sorted.begin(), sorted.end());
@@ -74,7 +57,7 @@ std::size_t used(const std::vector<unsigned>& indices) {
 
 }  // namespace
 
-SimplifiedMesh decimate_openmesh(const Mesh& mesh, const FramePositions& frame, std::uint32_t vertices) {
+std::vector<Face> decimate_openmesh(const Mesh& mesh, const FramePositions& frame, std::uint32_t vertices) {
   using Triangles = OpenMesh::TriMesh_ArrayKernelT<>;
   Triangles triangles;
   triangles.request_face_status();
@@ -100,10 +83,11 @@ SimplifiedMesh decimate_openmesh(const Mesh& mesh, const FramePositions& frame, 
     for (const auto vertex : face.vertices()) corners[k++] = static_cast<std::uint32_t>(vertex.idx());
     faces.push_back(corners);
   }
-  return made_of(std::move(faces), frame);
+  return faces;
 }
 
-SimplifiedMesh simplify_meshoptimizer(const Mesh& mesh, const FramePositions& frame, std::uint32_t vertices) {
+std::vector<Face> simplify_meshoptimizer(const Mesh& mesh, const FramePositions& frame,
+                                         std::uint32_t vertices) {
   std::vector<unsigned> indices;
   for (const Face& face : mesh.faces) indices.insert(indices.end(), face.begin(), face.end());
   const auto simplified = [&](std::size_t faces) {
@@ -127,7 +111,23 @@ SimplifiedMesh simplify_meshoptimizer(const Mesh& mesh, const FramePositions& fr
   std::vector<Face> faces;
   for (std::size_t i = 0; i < result.size(); i += 3)
     faces.push_back({result[i], result[i + 1], result[i + 2]});
-  return made_of(std::move(faces), frame);
+  return faces;
+}
+
+SimplifiedMesh mesh_of(std::vector<Face> faces, const FramePositions& frame) {
+  SimplifiedMesh result;
+  result.places = nearest_places(faces, frame);
+  for (const Face& face : faces) result.vertices.insert(result.vertices.end(), face.begin(), face.end());
+  std::sort(result.vertices.begin(), result.vertices.end());
+  result.vertices.erase(std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  for (Face& face : faces) {
+    for (std::uint32_t& v : face) {
+      v = static_cast<std::uint32_t>(std::lower_bound(result.vertices.begin(), result.vertices.end(), v) -
+                                     result.vertices.begin());
+    }
+  }
+  result.mesh = {static_cast<std::uint32_t>(result.vertices.size()), std::move(faces)};
+  return result;
 }
 
 }  // namespace tvg::bench
