@@ -134,6 +134,8 @@ typedef struct tvg_mesh_info {
   uint32_t face_count;
   const uint32_t* faces; /* [face][corner], counter-clockwise; the decoder's own, until the next
                             TVG_EVENT_MESH or tvg_decoder_destroy */
+  uint32_t lod_count;    /* coarser meshes that the stream has of it */
+  uint32_t lod;          /* which of them this is, counted from 1; 0: the whole mesh */
 } tvg_mesh_info;
 
 /* How the frames of a GOP are coded. */
@@ -233,13 +235,19 @@ TVG_API tvg_code tvg_decoder_load_index(tvg_decoder* decoder, const void* bytes,
    it. The bytes pushed from now on must begin at `*offset` of the stream. Without an index a frame ahead is
    reached by reading on, which decodes only the GOP that holds it. */
 TVG_API tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t* offset);
-/* How many of the bytes that come next are of no use on the way to a frame. They count as pushed: the next
-   push begins behind them. A caller that reads from a pipe need not ask. */
+/* How many of the bytes that come next are of no use on the way to a frame, or for the mesh that
+   tvg_decoder_use_lod asks for. They count as pushed: the next push begins behind them. A caller that reads
+   from a pipe need not ask. */
 TVG_API uint64_t tvg_decoder_skip(tvg_decoder* decoder);
 
 /* Decodes only the first `most` components, rounded up to a multiple of four, of each basis (TVG_MODE_BASIS)
    that is read from now on; those that add most come first. All are decoded unless this says otherwise. */
 TVG_API tvg_code tvg_decoder_use_components(tvg_decoder* decoder, uint32_t most);
+
+/* Draws meshes that are read from now on as one of the coarser ones that they have: 1 the first coarser one,
+   and so on, what is above the last as the last; 0, as at first, the whole mesh. Vertices are then that
+   mesh's. In TVG_MODE_BASIS it needs fewer bytes. */
+TVG_API tvg_code tvg_decoder_use_lod(tvg_decoder* decoder, uint32_t lod);
 
 /* What went wrong last: in TVG_EVENT_ERROR, or in a function that did not return TVG_OK and took a decoder
    that was not const. One line for people; the decoder's own, until the next such event or call. "" where
