@@ -71,7 +71,7 @@ std::shared_ptr<const PlanPart> Decoder::State::plan_in_force(std::uint32_t id) 
 }
 
 /// The basis that the GOP names which is being read; null where it does not name the parts of one, in order.
-// format-spec §7.8.1
+// format-spec §4.5.1
 std::shared_ptr<const BasisPlan> Decoder::State::plan_of_gop() const {
   const GopHeader& header = reader.gop();
   const std::shared_ptr<const GopMesh> its_mesh = mesh_in_force(header.mesh);

@@ -31,10 +31,10 @@ def lines(*names):
     text = stored(*names).decode("utf-8").splitlines()
     return dict(line.split(" ", 1) for line in text if line and not line.startswith("#"))
 
-def facts(path):
-    """What the reference says of the stream in a file."""
+def facts(path, lod=0):
+    """What the reference says of the stream in a file, drawn as this lod."""
     try:
-        return reference.decode(path).facts()
+        return reference.decode(path, lod).facts()
     except reference.Invalid as error:
         return str(error)
 
@@ -65,6 +65,13 @@ class TheReference(unittest.TestCase):
                 self.assertEqual(found, listed)
                 files = {name[:-4] for name in os.listdir(os.path.join(STREAMS, folder)) if name.endswith(".tvg")}
                 self.assertEqual(files, set(listed))
+
+    def test_gives_the_digests_of_every_lod(self):
+        with concurrent.futures.ProcessPoolExecutor() as pool:
+            listed = lines("lods.txt")
+            names, lods = zip(*(name.split("@") for name in listed))
+            paths = [os.path.join(STREAMS, name + ".tvg") for name in names]
+            self.assertEqual(dict(zip(listed, pool.map(facts, paths, map(int, lods)))), listed)
 
     def test_names_what_is_wrong_with_every_negative_stream(self):
         listed = lines("negative", "negative.txt")
