@@ -24,11 +24,13 @@ def levels_of(data, gates, coding):
     n = data[0]
     coding.require(1 <= n <= 64, "5.5", "number of levels")
     coder = coding.RangeDecoder(data[1:], "5.5")
-    model = [[[coding.Bit() for _ in range(3)] for _ in range(4)] for _ in range(12)]
-    level = level_bits(coder, gates, n, model, coding.NONE)
+    level = level_bits(coder, gates, n, level_models(coding), coding.NONE)
     coder.finish()
     coding.require(set(level) == set(range(n)), "5.5", "a level without a vertex")
     return level
+
+def level_models(coding):
+    return [[[coding.Bit() for _ in range(3)] for _ in range(4)] for _ in range(12)]
 
 def level_bits(coder, gates, n, model, NONE):
     level = []

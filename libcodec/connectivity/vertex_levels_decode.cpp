@@ -14,7 +14,7 @@ Fault decode_levels(Bytes section, std::span<const Gate> gates, std::vector<std:
   if (!try_resize(levels, gates.size())) return {"", "out of memory", ErrorCode::kOutOfMemory};
   RangeDecoder coder(reader.bytes(reader.left()));
   if (!code_levels(coder, gates, count, levels) || !coder.finished())
-    return {kSection, "the levels of the vertices do not fill their bytes exactly"};
+    return {"§6.1", "the levels of the vertices do not fill their bytes exactly"};
   std::uint64_t met = 0;
   for (const std::uint8_t level : levels) met |= std::uint64_t{1} << level;
   if (met != ~std::uint64_t{0} >> (64 - count)) return {kSection, "there is a level without a vertex"};

@@ -41,10 +41,7 @@ Result<PlanPart> Decoder::State::decode_plan_read(const CodedMesh& coded, std::s
   const std::size_t wanted = coded.parts_wanted();
   if (part >= coded.parts()) return malformed("§7.8.1", "planes of a basis add to all of its parts");
   PlanPart result;
-  if (part > 0) {
-    result.before = plan_in_force(static_cast<std::uint32_t>(reader.plan().adds_to - 1));
-    if (result.before == nullptr) return malformed("§7.8.1", "planes of a basis add to none");
-  }
+  if (part > 0) result.before = plan_in_force(static_cast<std::uint32_t>(reader.plan().adds_to - 1));
   if (part + 1 > wanted) return result;
   if (part + 1 < wanted) {
     if (!try_reserve(result.fields, fields.size())) return out_of_memory();
@@ -54,7 +51,11 @@ Result<PlanPart> Decoder::State::decode_plan_read(const CodedMesh& coded, std::s
   std::array<Bytes, kMostCoarseMeshes + 1> parts;
   parts[part] = fields;
   const PlanPart* before = result.before.get();
-  for (std::size_t i = part; i-- > 0; before = before->before.get()) parts[i] = before->fields;
+  for (std::size_t i = part; i-- > 0; before = before->before.get()) {
+    // What went out of force as this came cannot be named beside it.
+    if (before == nullptr) return result;
+    parts[i] = before->fields;
+  }
   Result<BasisPlan> plan =
       decode_basis_plan(std::span(parts).first(wanted), mesh_in_force(reader.plan().mesh),
                         reader.head().limits, most_components);
