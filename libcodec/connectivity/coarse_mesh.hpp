@@ -9,12 +9,10 @@
 #include <span>
 #include <vector>
 
+#include <tvg/levels.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg {
-
-/// Coarser meshes that a mesh may have.
-inline constexpr std::size_t kMostCoarseMeshes = 16;
 
 /// A coarser mesh as its section has it (format-spec §5.6).
 struct CoarseLayout {
@@ -25,7 +23,7 @@ struct CoarseLayout {
 
 /// All of a mesh, the finest first.
 struct CoarseLayouts {
-  std::array<CoarseLayout, kMostCoarseMeshes> meshes;
+  std::array<CoarseLayout, kMaxCoarseMeshes> meshes;
   std::size_t count = 0;
 };
 

@@ -19,7 +19,7 @@ constexpr const char* kSection = "§5.6";
 Fault read_coarse_layouts(Bytes section, std::uint32_t face_count, CoarseLayouts& layouts) {
   ByteReader reader(section);
   const std::uint64_t count = reader.varint();
-  if (!reader.ok() || count == 0 || count > kMostCoarseMeshes)
+  if (!reader.ok() || count == 0 || count > kMaxCoarseMeshes)
     return {kSection, "the number of coarse meshes is out of range"};
   layouts.count = static_cast<std::size_t>(count);
   std::uint64_t finer = kMaxVertexLevels;

@@ -44,8 +44,8 @@ struct CodedMesh {
     return part < info.lods.size() ? info.lods[info.lods.size() - 1 - part].levels : kMaxVertexLevels;
   }
   /// [part]: the turn of the pyramid that it ends before.
-  std::array<std::size_t, kMostCoarseMeshes + 1> part_ends() const {
-    std::array<std::size_t, kMostCoarseMeshes + 1> ends{};
+  std::array<std::size_t, kMaxCoarseMeshes + 1> part_ends() const {
+    std::array<std::size_t, kMaxCoarseMeshes + 1> ends{};
     for (std::size_t part = 0; part + 1 < parts(); ++part)
       ends[part] = info.lods[info.lods.size() - 1 - part].vertices;
     ends[parts() - 1] = order.size();

@@ -48,7 +48,7 @@ Result<PlanPart> Decoder::State::decode_plan_read(const CodedMesh& coded, std::s
     result.fields.assign(fields.begin(), fields.end());
     return result;
   }
-  std::array<Bytes, kMostCoarseMeshes + 1> parts;
+  std::array<Bytes, kMaxCoarseMeshes + 1> parts;
   parts[part] = fields;
   const PlanPart* before = result.before.get();
   for (std::size_t i = part; i-- > 0; before = before->before.get()) {

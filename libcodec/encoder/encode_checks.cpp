@@ -142,8 +142,8 @@ Status check_levels(const MeshLevels* levels, const Mesh& mesh) {
   }
   if (!std::all_of(met.begin(), met.begin() + count, [](bool there) { return there; }))
     return invalid_argument("there must be a vertex of each level up to the highest");
-  if (levels->coarse.size() > kMostCoarseMeshes)
-    return invalid_argument("there must be at most 16 coarse meshes");
+  if (levels->coarse.size() > kMaxCoarseMeshes)
+    return invalid_argument("there must be at most " + std::to_string(kMaxCoarseMeshes) + " coarse meshes");
   std::uint32_t finer = count;
   for (const CoarseMesh& coarse : levels->coarse) {
     if (Status status = check_coarse(coarse, finer, *levels, mesh); !status.ok()) return status;

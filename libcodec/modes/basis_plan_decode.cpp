@@ -123,8 +123,8 @@ class PlanReader {
   BasisPlan& plan_;
   const CodedMesh& mesh_;
   std::size_t count_;
-  std::array<ByteReader, kMostCoarseMeshes + 1> readers_;
-  std::array<Hasher, kMostCoarseMeshes + 1> digests_;
+  std::array<ByteReader, kMaxCoarseMeshes + 1> readers_;
+  std::array<Hasher, kMaxCoarseMeshes + 1> digests_;
 };
 
 }  // namespace
