@@ -132,9 +132,10 @@ template <class Simplifier>
 Row theirs(const Animation& animation, const std::string& name, std::uint32_t vertices,
            Simplifier simplifier) {
   const double start = processor_seconds();
-  const SimplifiedMesh made =
-      simplifier(animation.sequence.mesh, animation.sequence.frames.front(), vertices);
-  return row_of(name, animation.sequence, made, processor_seconds() - start);
+  std::vector<Face> faces = simplifier(animation.sequence.mesh, animation.sequence.frames.front(), vertices);
+  const double seconds = processor_seconds() - start;
+  const SimplifiedMesh made = mesh_of(std::move(faces), animation.sequence.frames.front());
+  return row_of(name, animation.sequence, made, seconds);
 }
 
 std::vector<Row> rows_of(const Animation& animation, std::uint32_t vertices) {
