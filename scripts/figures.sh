@@ -13,7 +13,7 @@ mkdir -p "$out"
 draw() {
   local count=$#
   local inputs=("${@:1:count-3}") frame=${*:count-2:1} camera=${*:count-1:1} picture=${*:count:1}
-  "$tvg" render "${inputs[@]}" -o "$picture" --frames "$frame-$frame" --camera "$camera" --size 280x280 --shading flat \
+  "$tvg" render "${inputs[@]}" -o "$picture" --frames "$frame-$frame" --camera "$camera" --size 260x260 --shading flat \
     --background white --no-labels --quiet
 }
 
