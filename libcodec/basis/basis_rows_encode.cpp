@@ -181,21 +181,25 @@ double squares_added(const Eigen::MatrixXd& gram, const Eigen::MatrixXf& pull, c
 
 void fit_rows(const Trajectories& trajectories, const Coefficients& coefficients, const Eigen::MatrixXf& rows,
               const CoefficientQuality& quality, FittedBasis& fitted) {
+  std::vector<double> units = {std::sqrt(quality.thrift / trajectories.mean_weight())};
+  Eigen::MatrixXf fitting;
+  if (fitted.coefficients.components == 0) {
+    RowRounding(trajectories, fitting, fitted).run(std::move(units));
+    measure_errors(trajectories, coefficients, fitted);
+    return;
+  }
   const Eigen::MatrixXf planes = quantized(coefficients, fitted);
   const Eigen::MatrixXf unfitted = rows.leftCols(planes.cols()).transpose();
-  Eigen::MatrixXf fitting = unfitted, rest = trajectories.weighted;
-  std::vector<double> units = {std::sqrt(quality.thrift / trajectories.mean_weight())};
-  if (planes.cols() > 0) rest.noalias() -= planes * unfitted;
+  Eigen::MatrixXf rest = trajectories.weighted;
+  rest.noalias() -= planes * unfitted;
   const Eigen::MatrixXf pull = planes.transpose() * rest;
   Eigen::MatrixXf half_gram = Eigen::MatrixXf::Zero(planes.cols(), planes.cols());
   half_gram.selfadjointView<Eigen::Lower>().rankUpdate(planes.transpose());
   const Eigen::MatrixXd gram = half_gram.cast<double>().selfadjointView<Eigen::Lower>();
-  if (planes.cols() > 0) {
-    Eigen::MatrixXd damped = gram;
-    damped.diagonal().array() += fitted.step * fitted.step;  // a plane of zeros has no say
-    fitting += damped.ldlt().solve(pull.cast<double>()).cast<float>();
-    for (Eigen::Index a = 0; a < planes.cols(); ++a) units.push_back(row_unit(quality, damped(a, a)));
-  }
+  Eigen::MatrixXd damped = gram;
+  damped.diagonal().array() += fitted.step * fitted.step;  // a plane of zeros has no say
+  fitting = unfitted + damped.ldlt().solve(pull.cast<double>()).cast<float>();
+  for (Eigen::Index a = 0; a < planes.cols(); ++a) units.push_back(row_unit(quality, damped(a, a)));
   RowRounding rounding(trajectories, fitting, fitted);
   rounding.run(std::move(units));
   const Eigen::MatrixXd off = fitting.cast<double>() - unfitted.cast<double>();
