@@ -15,6 +15,8 @@
 #include <thread>
 #include <utility>
 
+#include <tvg/levels.hpp>
+
 namespace tvg::cli {
 
 namespace {
@@ -25,6 +27,7 @@ struct DecodeArguments {
   std::string frames;
   unsigned threads = 0;
   std::uint32_t components = kMaxComponents;
+  std::uint32_t lod = 0;
   bool conceal = false;
   bool quiet = false;
 };
@@ -46,13 +49,15 @@ class DecodeJob {
 
   void run() {
     reader_.decoder().use_components(arguments_.components);
+    reader_.use_lod(arguments_.lod);
     index_ = reader_.read_index();
     if (index_) total_ = index_->frame_count();
     if (!arguments_.frames.empty()) {
       wanted_ = parse_frame_range(arguments_.frames);
       if (total_) check_frame_range(*wanted_, *total_, reader_.name());
     }
-    if (threads_ > 1 && index_ && *total_ > 0) run_ahead();
+    // A coarser mesh is little work, and is to be read with as few bytes as can be.
+    if (threads_ > 1 && index_ && *total_ > 0 && arguments_.lod == 0) run_ahead();
     while (!done_) handle(reader_.next());
     if (wanted_ && written_ + lost_ < wanted_->last - wanted_->first + 1) {
       throw ToolError(ExitStatus::kUsage,
@@ -201,6 +206,7 @@ class DecodeJob {
                               : files.size() <= 2 ? fmt::format("{}", fmt::join(files, ", "))
                                                   : files.front() + " to " + files.back();
     fmt::print(stderr, "{}: {} frames\n", names, written_ + lost_);
+    if (arguments_.lod > 0) fmt::print(stderr, "note: {}\n", reader_.lod_note());
   }
 
   const DecodeArguments& arguments_;
@@ -244,6 +250,12 @@ void add_decode_command(CLI::App& tool) {
                   "of planes that GOPs in mode basis share, use only so many, rounded up to a multiple of 4: "
                   "coarser, and sooner done (default: all)")
       ->check(CLI::Range(1u, kMaxComponents));
+  command
+      .add_option(
+          "--lod", arguments->lod,
+          "the coarser mesh of this number that the stream has, 1 the first; in mode basis fewer bytes "
+          "are read for it (default: 0, the whole mesh)")
+      ->check(CLI::Range(0u, kMaxCoarseMeshes));
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
   command.add_option("--threads", arguments->threads, "GOPs decoded at a time (default: one per processor)")

@@ -68,20 +68,25 @@ struct StreamSummary {
 
 /// Bytes by what they serve; the last takes what is left.
 std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summary) {
-  double connectivity = 0, order = 0, shape = 0, flags = 0, planes = 0;
+  double connectivity = 0, order = 0, shape = 0, levels = 0, lods = 0, flags = 0, planes = 0;
   for (const SurveyedMesh& mesh : summary.stream.meshes) {
     connectivity += static_cast<double>(mesh.parts.connectivity_bytes);
     order += static_cast<double>(mesh.parts.order_bytes);
     shape += static_cast<double>(mesh.parts.shape_bytes);
+    levels += static_cast<double>(mesh.parts.levels_bytes);
+    lods += static_cast<double>(mesh.parts.lods_bytes);
   }
   for (const GopInfo& gop : summary.stream.gops) flags += static_cast<double>(gop.flag_bytes);
   for (const SurveyedPlan& plan : summary.stream.plans) planes += static_cast<double>(plan.bytes);
   std::vector<std::pair<const char*, double>> result = {{"connectivity", connectivity},
                                                         {"order", order},
                                                         {"shape", shape},
+                                                        {"levels", levels},
+                                                        {"lods", lods},
                                                         {"flags", flags},
                                                         {"planes", planes}};
-  double left = static_cast<double>(summary.stream.bytes) - connectivity - order - shape - flags - planes;
+  double left = static_cast<double>(summary.stream.bytes);
+  for (const auto& [purpose, bytes] : result) left -= bytes;
   if (!summary.decoded) {
     result.emplace_back("frames_and_container", left);
     return result;
@@ -195,6 +200,11 @@ void print_json(const StreamSummary& summary) {
   json["faces"] = summary.last_mesh().faces;
   json["meshes"] = stream.meshes.size();
   json["keeps_vertex_order"] = summary.last_mesh().parts.keeps_vertex_order;
+  json["levels"] = summary.last_mesh().parts.levels;
+  for (const LodInfo& lod : summary.last_mesh().parts.lods) {
+    json["lods"].push_back(
+        {{"levels", lod.levels}, {"vertices", lod.vertices}, {"faces", lod.faces}, {"bytes", lod.bytes}});
+  }
   json["damages"] = summary.damages;
   for (const auto& [purpose, bytes] : purposes(summary)) json["bytes_by_purpose"][purpose] = bytes;
   json["bits_per_coordinate"] = bits_per_coordinate(stream.bytes, summary.vertex_frames(), 1);
@@ -209,6 +219,7 @@ void print_json(const StreamSummary& summary) {
     json["planes"].push_back({{"first_frame", plan.first_frame},
                               {"frame_count", plan.frame_count},
                               {"components", plan.components},
+                              {"part", plan.part},
                               {"bytes", plan.bytes}});
   }
   for (const GopInfo& gop : stream.gops) {
@@ -252,11 +263,24 @@ void print_gops(const StreamSummary& summary) {
 /// Planes that GOPs share: their frames are a basis period.
 void print_planes(const StreamSummary& summary) {
   if (summary.stream.plans.empty()) return;
-  fmt::print("\nplanes shared by GOPs\n  {:>8} {:>7} {:>11} {:>12}\n", "first", "frames", "components",
-             "bytes");
+  const bool parts = !summary.last_mesh().parts.lods.empty();
+  fmt::print("\nplanes shared by GOPs\n  {:>8} {:>7} {:>11} {:>12}{}\n", "first", "frames", "components",
+             "bytes", parts ? "   part" : "");
   for (const SurveyedPlan& plan : summary.stream.plans)
-    fmt::print("  {:>8} {:>7} {:>11} {:>12}\n", plan.first_frame, plan.frame_count, plan.components,
-               plan.bytes);
+    fmt::print("  {:>8} {:>7} {:>11} {:>12}{}\n", plan.first_frame, plan.frame_count, plan.components,
+               plan.bytes, parts ? fmt::format("{:>7}", plan.part) : "");
+}
+
+/// Coarser meshes that can be drawn instead.
+void print_lods(const MeshInfo& mesh) {
+  if (mesh.levels == 0) return;
+  fmt::print("\n{} levels of vertices\n", mesh.levels);
+  if (mesh.lods.empty()) return;
+  fmt::print("  {:>4} {:>8} {:>10} {:>10} {:>12}\n", "lod", "levels", "vertices", "faces", "bytes");
+  for (std::size_t i = 0; i < mesh.lods.size(); ++i) {
+    const LodInfo& lod = mesh.lods[i];
+    fmt::print("  {:>4} {:>8} {:>10} {:>10} {:>12}\n", i + 1, lod.levels, lod.vertices, lod.faces, lod.bytes);
+  }
 }
 
 void print_text(const StreamSummary& summary) {
@@ -283,6 +307,7 @@ void print_text(const StreamSummary& summary) {
   }
   if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
   print_purposes(summary);
+  print_lods(mesh.parts);
   print_planes(summary);
   print_gops(summary);
   fmt::print("\nchunks\n");

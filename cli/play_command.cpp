@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include <tvg/levels.hpp>
+
 namespace tvg::cli {
 
 namespace {
@@ -26,6 +28,7 @@ struct PlayArguments : player::LookArguments {
   double speed = 1;
   double seconds = 0;
   std::uint64_t start = 0;
+  std::uint32_t lod = 0;
   std::uint64_t memory_mb = 512;
   bool once = false;
   bool paused = false;
@@ -42,6 +45,7 @@ player::PlayOptions options_of(const PlayArguments& arguments) {
   options.looping = !arguments.once;
   options.paused = arguments.paused;
   options.start = arguments.start;
+  options.lod = arguments.lod;
   options.memory_bytes = arguments.memory_mb << 20;
   InputFiles inputs;
   inputs.add(options.location);
@@ -78,6 +82,12 @@ void add_play_command(CLI::App& tool) {
       command, "--speed", {player::PlaybackClock::kSlowest, player::PlaybackClock::kFastest},
       [arguments](double value) { arguments->speed = value; }, "times the frame rate")
       ->default_str("1");
+  command
+      .add_option(
+          "--lod", arguments->lod,
+          "play the coarser mesh of this number that the stream has, 1 the first; in mode basis fewer "
+          "bytes are read for it (default: 0, the whole)")
+      ->check(CLI::Range(0u, kMaxCoarseMeshes));
   command.add_option("--memory", arguments->memory_mb, "MiB of decoded frames held at most")
       ->check(CLI::Range(1, 65536))
       ->capture_default_str();

@@ -11,6 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include <tvg/levels.hpp>
+
 namespace tvg::cli {
 
 namespace {
@@ -61,6 +63,10 @@ void add_render_command(CLI::App& tool) {
   add_look_options(command, *arguments, arguments->measure);
   command.add_flag("--no-labels", arguments->no_labels, "draw no text and no legend");
   command.add_option("--fps", arguments->fps, "frames per second of a clip: 30, 30000/1001");
+  command
+      .add_option("--lod", arguments->lod,
+                  "draw the coarser mesh of this number that a .tvg has, 1 the first (default: 0, the whole)")
+      ->check(CLI::Range(0u, kMaxCoarseMeshes));
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");

@@ -89,47 +89,13 @@ std::optional<Decoder::Event> Decoder::State::take_mesh() {
 /// Decodes the mesh whose chunk was just read, unless it is in force already.
 Status Decoder::State::decode_mesh_read() {
   if (mesh_in_force(reader.mesh_id()) != nullptr) return {};
-  Result<GopMesh> decoded = decode_gop_mesh(reader.mesh(), reader.mesh_id(), reader.head().limits);
+  Result<GopMesh> decoded = decode_gop_mesh(reader.mesh(), reader.mesh_id(), reader.head().limits, lod);
   if (!decoded) return decoded.error();
   if (!can_allocate(kSmallThings)) return out_of_memory();
+  if (decoded->coded.info.lod > 0)
+    reader.want_parts(static_cast<std::uint32_t>(decoded->coded.parts_wanted()));
   reader.keep(std::make_shared<const GopMesh>(std::move(*decoded)));
   return {};
-}
-
-/// Planes that cannot be used lose no frame by themselves: the GOPs that name them do.
-// format-spec §4.9
-std::optional<Decoder::Event> Decoder::State::take_plan() {
-  if (!map_.note({{.offset = reader.chunk_offset(), .kind = IndexEntry::Kind::kPlan}, frames_.position()})) {
-    reader.fail(out_of_memory());
-    return std::nullopt;
-  }
-  if (plan_in_force(reader.plan_id()) != nullptr) return std::nullopt;
-  Result<BasisPlan> decoded = decode_basis_plan(reader.plan().fields, mesh_in_force(reader.plan().mesh),
-                                                reader.head().limits, most_components);
-  if (decoded && can_allocate(kSmallThings)) {
-    reader.keep(std::make_shared<const BasisPlan>(std::move(*decoded)));
-    return std::nullopt;
-  }
-  Error cause = decoded ? out_of_memory() : std::move(decoded.error());
-  cause.byte_offset = reader.chunk_offset();
-  if (cause.code == ErrorCode::kOutOfMemory) {
-    reader.fail(std::move(cause));
-    return std::nullopt;
-  }
-  reader.reject(cause.code);
-  return tell(frames_.lose(0, std::move(cause)));
-}
-
-/// Planes as they were decoded; null where none of this name are in force.
-std::shared_ptr<const BasisPlan> Decoder::State::plan_in_force(std::uint32_t id) const {
-  const ChunkWindow::Entry* const entry = reader.plans().find(id);
-  return entry == nullptr ? nullptr : std::static_pointer_cast<const BasisPlan>(entry->content);
-}
-
-/// The planes that the GOP names which is being read; null where those are not one chunk.
-std::shared_ptr<const BasisPlan> Decoder::State::plan_of_gop() const {
-  const GopHeader& header = reader.gop();
-  return header.plane_count() == 1 ? plan_in_force(ByteReader(header.planes).u32()) : nullptr;
 }
 
 /// A mesh as it was decoded; null where none of this name is in force.
@@ -189,8 +155,10 @@ void Decoder::State::note_gop() {
   if (const auto* const in_force = reader.meshes().find(header.mesh)) place.mesh_offset = in_force->offset;
   std::array<std::uint64_t, GopHeader::kMostPlanes> plan_offsets{};
   std::size_t known = 0;
+  const std::shared_ptr<const GopMesh> its_mesh = mesh_in_force(header.mesh);
+  const std::size_t left_out = its_mesh == nullptr ? 0 : its_mesh->coded.info.lod;
   ByteReader ids(header.planes);
-  for (std::size_t i = 0; i < header.plane_count(); ++i) {
+  for (std::size_t i = 0; i + std::min(left_out, header.plane_count()) < header.plane_count(); ++i) {
     const auto* const in_force = reader.plans().find(ids.u32());
     if (in_force != nullptr) plan_offsets[known++] = in_force->offset;
   }
@@ -309,10 +277,16 @@ const Metadata& Decoder::metadata() const {
   return state_->metadata;
 }
 const Mesh& Decoder::mesh() const {
-  return state_->mesh->coded.mesh;
+  return state_->mesh->coded.drawn();
 }
 const MeshInfo& Decoder::mesh_info() const {
   return state_->mesh->coded.info;
+}
+std::uint32_t Decoder::lod_count() const {
+  return static_cast<std::uint32_t>(mesh_info().lods.size());
+}
+std::span<const std::uint32_t> Decoder::lod_vertices() const {
+  return state_->mesh->coded.cut.numbers;
 }
 const ChunkInfo& Decoder::chunk() const {
   return state_->chunk_info;
@@ -331,6 +305,9 @@ std::uint64_t Decoder::skip() {
 }
 void Decoder::use_components(std::uint32_t most) {
   state_->most_components = most;
+}
+void Decoder::use_lod(std::uint32_t lod) {
+  state_->lod = lod;
 }
 const GopInfo& Decoder::gop() const {
   return state_->gop_info;

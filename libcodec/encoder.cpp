@@ -146,11 +146,11 @@ class Encoder::State {
     if (stretch_ && cutter_->frames() == 0)
       return Error{ErrorCode::kWrongState, "the mesh before this one has no frames"};
     if (!stretch_) {
-      if (Status status = check_options(*options_); !status.ok()) return status;
-      if (options_->max_error && options_->max_error->of_diagonal)
-        return invalid_argument("the diagonal is not known before the frames: give the error as a length");
+      if (Status status = check_pushed(*options_); !status.ok()) return status;
     }
     if (Status status = check_mesh(mesh); !status.ok()) return status;
+    if (Status status = stretch_ ? Status() : check_levels(options_->levels.get(), mesh); !status.ok())
+      return status;
     if (stretch_ && (mesh.vertex_count > limits_.vertices || mesh.faces.size() > limits_.faces)) {
       return Error{ErrorCode::kLimitExceeded,
                    "the mesh has " + std::to_string(mesh.vertex_count) + " vertices and " +
@@ -215,7 +215,8 @@ class Encoder::State {
 
   /// With a reference shape it is written with the first frame, which the shape is made of.
   Status write_mesh(std::span<const float> first_frame) {
-    EncodedMesh connectivity = encode_mesh(stretch_->mesh, options_->keep_vertex_order);
+    EncodedMesh connectivity = encode_mesh(stretch_->mesh, options_->keep_vertex_order,
+                                           frames_before_ == 0 ? options_->levels.get() : nullptr);
     if (needs_shape(*options_)) {
       Result<EncodedGopMesh> encoded =
           finish_mesh(std::move(connectivity), first_frame, shape_cell(*options_, first_frame),
@@ -266,8 +267,8 @@ class Encoder::State {
     if (!done) return {};
     if (!*done) return done->error();
     const EncodedRun& run = **done;
-    if (!run.plan.empty()) {
-      if (Status status = writer_.write_plan_chunk(run.plan); !status.ok()) return status;
+    for (const std::vector<std::uint8_t>& plan : run.plans) {
+      if (Status status = writer_.write_plan_chunk(plan); !status.ok()) return status;
     }
     report_.largest_error = std::max(report_.largest_error, run.largest_error);
     for (const EncodedGop& gop : run.gops) {

@@ -1,5 +1,6 @@
 #include "tool/stream_reader.hpp"
 
+#include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
 #include <cerrno>
@@ -50,6 +51,24 @@ std::size_t StreamReader::read_some(void* target, std::size_t size) {
   }
 }
 
+void StreamReader::use_lod(std::uint32_t lod) {
+  constexpr std::size_t kSmallPiece = 4096;
+  lod_ = lod;
+  decoder_.use_lod(lod);
+  if (lod > 0) piece_.resize(kSmallPiece);
+}
+
+std::string StreamReader::lod_note() const {
+  if (lod_ == 0) return {};
+  const std::string read =
+      size_ ? fmt::format("{} of {} read", readable_bytes(bytes_read_), readable_bytes(*size_))
+            : fmt::format("{} read", readable_bytes(bytes_read_));
+  if (decoder_.mesh_info().lod == 0)
+    return fmt::format("there is no coarser mesh: the whole is drawn, {}", read);
+  return fmt::format("lod {} of {}: {} vertices, {}", decoder_.mesh_info().lod, decoder_.lod_count(),
+                     decoder_.mesh().vertex_count, read);
+}
+
 Decoder::Event StreamReader::next() {
   for (;;) {
     const Decoder::Event event = decoder_.poll();
@@ -61,6 +80,7 @@ Decoder::Event StreamReader::next() {
     if (count == 0) {
       decoder_.finish();
     } else {
+      bytes_read_ += count;
       decoder_.push({piece_.data(), count});
     }
   }

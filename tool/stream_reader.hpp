@@ -22,6 +22,13 @@ class StreamReader {
   Decoder::Event next();
 
   Decoder& decoder() { return decoder_; }
+  const Decoder& decoder() const { return decoder_; }
+  /// As Decoder::use_lod(); reads in small pieces, so that what is not needed stays unread where the input is
+  /// a file. Before the first event.
+  void use_lod(std::uint32_t lod);
+  /// What is to be said of a coarser mesh that was asked for: "lod 1 of 2: 4000 vertices, 203 kB of 305 kB
+  /// read"; empty where none was.
+  std::string lod_note() const;
   /// The path, or "standard input".
   const std::string& name() const { return name_; }
   /// Bytes of the file; nothing where the input is not a file.
@@ -45,6 +52,8 @@ class StreamReader {
   int descriptor_;
   std::optional<std::uint64_t> size_;
   std::vector<std::uint8_t> piece_;
+  std::uint64_t bytes_read_ = 0;  ///< given to the decoder
+  std::uint32_t lod_ = 0;
   Decoder decoder_;
 };
 

@@ -126,7 +126,6 @@ def mesh():
         "section_twice": ("malformed", "3.5", writer.mesh(4, 1, [part, part])),
         "section_beyond": ("malformed", "4.3", writer.mesh(4, 1, [part]) + varint(2) + varint(5) + b"four"),
         "section_without_size": ("malformed", "4.3", writer.mesh(4, 1, [part]) + varint(2)),
-        "section_levels": ("unsupported", "4.3", writer.mesh(4, 1, [part, (7, b"?")])),
         "section_unknown": ("unsupported", "4.3", writer.mesh(4, 1, [part, (2 ** 40 + 1, b"?")])),
         "mesh_cut": ("malformed", "4.3", writer.mesh(4, 1, [part])[:1]),
     }

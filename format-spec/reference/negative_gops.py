@@ -151,7 +151,7 @@ def plans():
     yield case("before_its_mesh", "malformed", "4.5.1", PLAN, (b"PLAN", PLAN), (b"MESH", MESH))
     yield case("of_another_mode", "malformed", "4.5.1", PLAN, (b"PLAN", PLAN), mode=1)
     added = writer.plan(MESH_ID, 1, 1)
-    yield case("that_adds", "unsupported", "4.9", added, (b"PLAN", added), mode=1)
+    yield case("that_adds", "malformed", "4.9", added, (b"PLAN", added), mode=1)
 
 def wide_packets():
     bounds = BOUNDS | {"packet_bytes": 2000}

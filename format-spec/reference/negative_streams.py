@@ -13,6 +13,7 @@ import sys
 import negative_basis
 import negative_chunks
 import negative_gops
+import negative_levels
 import negative_lossless
 import negative_pyramid
 
@@ -23,6 +24,7 @@ def cases():
     yield from negative_pyramid.cases()
     yield from negative_lossless.cases()
     yield from negative_basis.cases()
+    yield from negative_levels.cases()
 
 def main(arguments):
     if len(arguments) != 1:

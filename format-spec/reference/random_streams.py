@@ -4,7 +4,8 @@
     python3 random_streams.py FOLDER SEED...
 
 writes the streams of the seeds to FOLDER/random_SEED.tvg. The same seed gives the same bytes everywhere. Seeds from
-1000 on have GOPs in mode lossless, too; those from 2000 on have plans and GOPs in mode basis.
+1000 on have GOPs in mode lossless, too; those from 2000 on have plans and GOPs in mode basis, and those from 3000 on
+meshes with levels and coarse meshes.
 """
 import os
 import sys
@@ -68,7 +69,7 @@ def row_chooser(random, plan):
 
 class Mesh:
     """A random mesh: payload, id, and what frames need to know of it."""
-    def __init__(self, random):
+    def __init__(self, random, with_levels=False):
         extreme = random.below(8)
         if extreme == 0:
             V, F = 1, random.below(2)
@@ -91,14 +92,38 @@ class Mesh:
         elif order == 3:
             sections.append((3, writer.uniform_order(random.shuffled(range(V)))))
         self.shape = self.turns = None
+        self.levels, self.lods = (), []
+        if with_levels and random.chance(80):
+            sections += self.level_sections(random, V, F)
         if random.chance(60):
             section = self.shape_section(random, faces, V)
             sections.append((5, section))
-            self.shape, self.turns = reference.shape_and_turns(section, faces, V)
+            self.shape, self.turns = reference.shape_and_turns(section, faces, V, self.levels)
         sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 2, 4, 2 ** 40) if random.chance(15)]
         self.V, self.F = V, F
         self.payload = writer.mesh(V, F, sorted(sections))
         self.id = writer.checksum(self.payload)
+
+    def level_sections(self, random, V, F):
+        """The sections of levels and, as a rule, of coarse meshes."""
+        n = random.between(1, min(V, random.pick((2, 5, 64))))
+        self.levels = random.shuffled([*range(n), *(random.below(n) for _ in range(V - n))])
+        sections = [(7, writer.levels(self.levels, self.gates))]
+        chosen = [below for below in range(n - 1, 0, -1) if random.chance(60)][:16]
+        for below in chosen:
+            count = sum(level < below for level in self.levels)
+            coded = RandomConnectivity(count, random.below(min(F, 20) + 1), random)
+            faces, gates = coded.decode()
+            order = random.pick((lambda: writer.identity_order(), lambda: writer.uniform_order(random.shuffled(range(count))),
+                                 lambda: writer.near_order(random.shuffled(range(count)), gates, random)))()
+            self.lods.append((below, count, len(faces), coded.coder.data, order))
+        return sections + [(9, writer.lods(self.lods))] * bool(self.lods)
+
+    def parts(self):
+        """The vertices of each part of a basis; None where there is one."""
+        bounds = [0] + [lod[0] for lod in self.lods[::-1]] + [64]
+        return [[v for v, level in enumerate(self.levels) if low <= level < high]
+                for low, high in zip(bounds, bounds[1:])] if self.lods else None
 
     @staticmethod
     def shape_section(random, faces, V):
@@ -115,33 +140,47 @@ class Basis:
         coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
         fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
         shift = [0 if is_fine else fine_bits - coarse_bits for is_fine in fine]
-        coded = basis_writer.PlanWriter(mesh.turns, shift, K, coefficient_chooser(random), random.chance(20))
+        coded = basis_writer.PlanWriter(mesh.turns, shift, K, coefficient_chooser(random), random.chance(20),
+                                         mesh.parts())
         largest = random.pick((0, 8, 40, 163))
         self.mesh, self.K, self.q = mesh, K, coded.q
         self.scales = [random.between(0, largest) for _ in range(K + 1)]
         origin = [random.pick((0.0, -1.0, 1e-3, 123.456, -1e30)) for _ in range(3)]
         flags = writer.flags(fine, mesh.gates) if coarse_bits < fine_bits else b""
         fields = basis_writer.basis_fields(K, fine_bits, coarse_bits, random.pick((0, 5, 20, 48)), origin,
-                                           random.pick(STEPS), self.scales, flags, coded.groups, coded.digest)
-        self.payload = writer.plan(mesh.id, 0, reference.MODE_BASIS, fields)
+                                           random.pick(STEPS), self.scales, flags,
+                                           coded.groups[0] if mesh.lods else coded.groups, coded.digest)
+        self.parts = [Part(mesh, 0, fields)]
+        for groups, digest in zip(coded.groups[1:], coded.digests[1:]):
+            self.parts.append(Part(mesh, self.parts[-1].id + 1, basis_writer.part_fields(groups, digest)))
+        self.ids = tuple(part.id for part in self.parts)
+
+class Part:
+    """One of the chunks of a basis."""
+    def __init__(self, mesh, adds_to, fields):
+        self.mesh, self.payload = mesh, writer.plan(mesh.id, adds_to, reference.MODE_BASIS, fields)
         self.id = writer.checksum(self.payload)
 
 class UnknownPlan:
     """Planes of a mode that nobody knows."""
     def __init__(self, random, mesh):
         self.mesh = mesh
-        self.payload = writer.plan(mesh.id, random.below(3), random.between(3, 200), random.some_bytes(4))
+        self.payload = writer.plan(mesh.id, 0 * random.below(3), random.between(3, 200), random.some_bytes(4))
+
+def in_order(chunks, chunk):
+    """Where a chunk stands among others; behind them where it does not."""
+    return chunks.index(chunk) if chunk in chunks else len(chunks)
 
 class RandomStream:
     """One stream. Chunks are planned first, since HEAD bounds them."""
     def __init__(self, seed):
         self.random, self.lossless = Random(seed), seed >= 1000
-        self.meshes = [Mesh(self.random) for _ in range(self.random.between(1, 3))]
+        self.meshes = [Mesh(self.random, seed >= 3000) for _ in range(self.random.between(1, 3))]
         self.window = self.random.between(1, 3)
         self.label = self.random.pick((0, 0, 17, 2 ** 62))
         self.bases = [Basis(self.random, mesh) for mesh in self.meshes if mesh.turns and seed >= 2000
                       for _ in range(self.random.between(1, 3))]
-        self.plan_window = self.random.between(1, 3) if self.bases else 1
+        self.plan_window = self.random.between(1, 3 if seed < 3000 else 9) if self.bases else 1
 
     def write(self):
         random, body = self.random, self.body()
@@ -162,7 +201,7 @@ class RandomStream:
             bounds |= {"components": max(basis.K for basis in self.bases) + random.below(3), "plans": self.plan_window,
                        "frames_per_gop": 70 + random.below(3)}
         shapes = any(mesh.turns for mesh in self.meshes)
-        bounds["decoder_memory"] = writer.memory(**bounds, shapes=shapes) + random.pick((0, 0, 1, 10 ** 6))
+        bounds["decoder_memory"] = writer.memory(**bounds, shapes=shapes, lods=any(mesh.lods for mesh in self.meshes)) + random.pick((0, 0, 1, 10 ** 6))
         others = {key: random.below(2 ** 63) for key in (0, 2, 8, 14, 1000) if random.chance(20)}
         stream = Stream()
         stream.add(b"HEAD", writer.head(others=others, **bounds))
@@ -222,12 +261,14 @@ class RandomStream:
                 add_plan(UnknownPlan(random, random.pick(in_force)))
             possible = [basis for basis in self.bases if basis.mesh in in_force]
             if possible and random.chance(60):
-                add_plan(random.pick(possible))
-            usable = [plan for plan in plans if plan in self.bases and plan not in gone and plan.mesh in in_force]
+                for part in random.pick(possible).parts:
+                    add_plan(part)
+            usable = [basis for basis in sorted(self.bases, key=lambda basis: in_order(plans, basis.parts[0]))
+                      if basis.mesh in in_force and all(part in plans and part not in gone for part in basis.parts)]
             if usable and random.chance(70):
                 basis = random.pick(usable)
                 payload, frame_count = self.basis_gop(basis)
-                chunks.append((b"GOP ", payload, (basis.mesh.id, frame_count, (basis.id,))))
+                chunks.append((b"GOP ", payload, (basis.mesh.id, frame_count, basis.ids)))
             if random.chance(85):
                 mesh = random.pick(in_force)
                 payload, frame_count = self.gop(mesh)
@@ -304,7 +345,7 @@ class RandomStream:
         frames = basis_writer.BasisWriter(basis, row_chooser(random, basis), choose_back)
         frame_count = 70 if random.chance(10) else random.between(1, 4)  # 70 are more than are remembered
         packets = self.framed(frames, frame_count, lambda number: ROWS, channels)
-        return self.finished(basis.mesh, frame_count, packets, planes=(basis.id,), mode=reference.MODE_BASIS,
+        return self.finished(basis.mesh, frame_count, packets, planes=basis.ids, mode=reference.MODE_BASIS,
                              fields=writer.channel_fields(channels))
 
     def elp_gop(self, mesh):

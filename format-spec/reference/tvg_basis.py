@@ -21,11 +21,9 @@ def factor(scale):
     """W of a row of this scale (7.8.5)."""
     return 4 + (scale & 3) << (scale >> 2)
 
-class Coefficients:
-    """7.8.2 Coefficients, of one group of planes after the other. shift: of each vertex."""
-    def __init__(self, turns, shift, coding, require):
-        self.turns, self.shift, self.coding, self.require = turns, shift, coding, require
-        self.activity, self.usual, self.first = [256] * len(turns), None, True
+class PartModels:
+    """The models of a part."""
+    def __init__(self, coding):
         self.by_size = [[[coding.level_model(i) for _ in range(3)] for i in range(26)],
                         [[coding.pyramid_model(1024) for _ in range(3)] for _ in range(26)]]
         self.by_place = [[[coding.pyramid_model((p + q) // 2) for q in coding.MIDDLE] for p in coding.MIDDLE]
@@ -33,21 +31,33 @@ class Coefficients:
         self.longer = [coding.Bit() for _ in range(27)]
         self.stirs = [[coding.Bit() for _ in range(3)] for _ in range(26)]
 
-    def group(self, coder, n):
-        """Returns the coefficients of the next n planes, [plane][vertex]."""
+class Coefficients:
+    """7.8.2 Coefficients, of one group of planes after the other. shift: of each vertex; ends: for each part the turn
+    behind its last, of all turns where there is one part."""
+    def __init__(self, turns, shift, coding, require, ends=None):
+        self.turns, self.shift, self.coding, self.require = turns, shift, coding, require
+        self.ends = ends or [len(turns)]
+        self.activity, self.usual, self.first = [256] * len(turns), None, True
+        self.models = [PartModels(coding) for _ in self.ends]
+
+    def group(self, coders, n):
+        """Returns the coefficients of the next n planes, [plane][vertex], from the coders of the parts."""
         V = len(self.turns)
         self.n, self.q, self.share = n, [[0] * V for _ in range(n)], [[0] * V for _ in range(n)]
-        self.running, self.next_usual, level = [0] * n, [], -1
-        for turn in self.turns:
-            if turn.level != level:
-                self.end_level(level)
-                level, self.coded = turn.level, 0
-                self.begin_level(level)
-            if self.coded % 16 == 0:
-                self.inverse = [2 ** 24 // running for running in self.running]
-                self.most = [20 * (running >> 4) for running in self.running]
-            self.vertex(coder, turn)
-            self.coded += 1
+        self.running, self.next_usual, level, first = [0] * n, [], -1, 0
+        for coder, end, models in zip(coders, self.ends, self.models):
+            self.part = models
+            for turn in self.turns[first:end]:
+                if turn.level != level:
+                    self.end_level(level)
+                    level, self.coded = turn.level, 0
+                    self.begin_level(level)
+                if self.coded % 16 == 0:
+                    self.inverse = [2 ** 24 // running for running in self.running]
+                    self.most = [20 * (running >> 4) for running in self.running]
+                self.vertex(coder, turn)
+                self.coded += 1
+            first = end
         self.end_level(level)
         self.usual, self.first = self.next_usual, False
         return self.q
@@ -102,14 +112,14 @@ class Coefficients:
         much = min(sum(abs(x) > 10 for x in lost), 2)
         level = min(self.coding.size_level(sum(size >> 2 for size, _, _ in known)), 25)
         steps = [0] * self.n
-        if self.stirred(coder, self.stirs[level][much], v, rounded):
+        if self.stirred(coder, self.part.stirs[level][much], v, rounded):
             for j, (size, beside, before) in enumerate(known):
                 k, part = 0, (abs(lost[j]) > 9) + (abs(lost[j]) > 21)
                 while size > 1536:
                     size, k = size >> 1, k + 1
                 place = self.coding.place_of
-                models = (self.by_size[k > 0][self.coding.size_level(size)][part],
-                          self.by_place[self.first][place(beside)][place(before)], self.longer)
+                models = (self.part.by_size[k > 0][self.coding.size_level(size)][part],
+                          self.part.by_place[self.first][place(beside)][place(before)], self.part.longer)
                 steps[j] = self.residual(coder, v, j, rounded[j], lost[j] < 0, k, models)
         for j, step in enumerate(steps):
             index = rounded[j] + step
@@ -127,9 +137,11 @@ class Coefficients:
         return -value if mirrored else value
 
 class Basis:
-    """7.8.1 The plan: its fields, and the coefficients q, [component][vertex]."""
-    def __init__(self, reader, mesh, components, coding):
-        require, reader.section = coding.require, "7.8.1"
+    """7.8.1 The plan: its fields, and the coefficients q, [component][vertex]. readers: of the parts that are wanted."""
+    def __init__(self, readers, mesh, components, coding):
+        require, reader = coding.require, readers[0]
+        for part in readers:
+            part.section = "7.8.1"
         K = reader.varint()
         require(K <= components, "4.1", "components of a plan", "limit-exceeded")
         self.fine_bits, self.coarse_bits, self.P = (reader.unsigned(1) for _ in range(3))
@@ -146,22 +158,27 @@ class Basis:
         require(D > 0 or not flags, "7.8.1", "flags where B1 = B2")
         require(mesh.turns, "7.8.1", "the mesh has no reference shape")
         fine = coding.flags(flags, mesh.gates, D == 0)
-        coded = Coefficients(mesh.turns, [0 if f else D for f in fine], coding, require)
-        self.q, hashed = [], bytearray()
+        parts = mesh.parts()
+        ends = [len(mesh.turns)] if len(parts) == 1 else [sum(map(len, parts[:i + 1])) for i in range(len(parts))]
+        coded = Coefficients(mesh.turns, [0 if f else D for f in fine], coding, require, ends[:len(readers)])
+        self.q, hashed = [], [bytearray() for _ in readers]
         for first in range(0, K, 4):
-            coder = coding.RangeDecoder(reader.take(reader.varint()), "7.8.2")
-            planes = coded.group(coder, min(K - first, 4))
-            coder.finish()
+            coders = [coding.RangeDecoder(part.take(part.varint()), "7.8.2") for part in readers]
+            planes = coded.group(coders, min(K - first, 4))
+            for coder in coders:
+                coder.finish()
             self.q += planes
-            hashed += hashed_planes(planes)
-        digest = reader.unsigned(8)
-        reader.end()
-        require(digest == coding.xxh64(bytes(hashed)), "7.8.1", "wrong digest of planes", "digest-mismatch")
+            for covered, vertices in zip(hashed, parts):
+                covered += hashed_planes(planes, vertices)
+        digests = [part.unsigned(8) for part in readers]
+        for part in readers:
+            part.end()
+        for digest, covered in zip(digests, hashed):
+            require(digest == coding.xxh64(bytes(covered)), "7.8.1", "wrong digest of planes", "digest-mismatch")
 
-def hashed_planes(planes):
-    """What the digest covers of a group."""
-    planes = planes + [[0] * len(planes[0])] * (4 - len(planes))
-    return b"".join(struct.pack("<4i", *values) for values in zip(*planes))
+def hashed_planes(planes, vertices):
+    """What the digest of a part, which has these vertices, covers of a group."""
+    return b"".join(struct.pack("<4i", *([plane[v] for plane in planes] + [0, 0, 0])[:4]) for v in vertices)
 
 class BasisFrames:
     """7.8.5 A frame: those of a GOP. most: the largest float32."""

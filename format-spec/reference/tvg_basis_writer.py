@@ -11,8 +11,8 @@ from tvg_writer import RangeEncoder, say_residual, sized, varint
 class CoefficientWriter(Coefficients):
     """Writes planes whose coefficients are chosen by a function of vertex, plane of the group, rounded prediction and
     what they may be at most. A vertex stirs where one has a residual, or always."""
-    def __init__(self, turns, shift, choose, always=False):
-        super().__init__(turns, shift, reference, reference.require)
+    def __init__(self, turns, shift, choose, always=False, ends=None):
+        super().__init__(turns, shift, reference, reference.require, ends)
         self.choose, self.always = choose, always
 
     def stirred(self, coder, model, v, rounded):
@@ -26,28 +26,37 @@ class CoefficientWriter(Coefficients):
         return super().residual(coder, v, j, rounded, mirrored, k, models)
 
 class PlanWriter:
-    """The groups of a plan of K planes, its coefficients q and their digest."""
-    def __init__(self, turns, shift, K, choose, always=False):
-        coefficients = CoefficientWriter(turns, shift, choose, always)
-        self.q, self.groups, hashed = [], [], b""
+    """The groups of a plan of K planes, its coefficients q and their digest; of the parts, groups[part], where their
+    vertices are given, and their digests."""
+    def __init__(self, turns, shift, K, choose, always=False, parts=None):
+        vertices = parts or [range(len(turns))]
+        ends = [sum(map(len, vertices[:i + 1])) for i in range(len(vertices))]
+        coefficients = CoefficientWriter(turns, shift, choose, always, ends)
+        groups, hashed, self.q = [[] for _ in vertices], [b"" for _ in vertices], []
         for first in range(0, K, 4):
-            coder = RangeEncoder()
+            coders = [RangeEncoder() for _ in vertices]
             try:
-                planes = coefficients.group(coder, min(K - first, 4))
+                planes = coefficients.group(coders, min(K - first, 4))
             except reference.Invalid:  # it has read what breaks a rule
-                coder.clear()
+                coders[0].clear()
                 planes = coefficients.q
-            coder.finish()
-            self.groups.append(coder.data)
+            for i, coder in enumerate(coders):
+                coder.finish()
+                groups[i].append(coder.data)
+                hashed[i] += hashed_planes(planes, vertices[i])
             self.q += planes
-            hashed += hashed_planes(planes)
-        self.digest = xxh64(hashed)
+        self.groups, self.digests = groups if parts else groups[0], [xxh64(covered) for covered in hashed]
+        self.digest = self.digests[0]
 
 # 7.8.1 The plan
 def basis_fields(components, fine_bits, coarse_bits, fraction_bits, origin, step, scales, flags, groups, digest):
     """Bytes of flags and of groups."""
     return (varint(components) + bytes([fine_bits, coarse_bits, fraction_bits]) + struct.pack("<4d", *origin, step)
             + bytes(scales) + sized(flags) + b"".join(map(sized, groups)) + struct.pack("<Q", digest))
+
+def part_fields(groups, digest):
+    """Those of a part that adds to another one."""
+    return b"".join(map(sized, groups)) + struct.pack("<Q", digest)
 
 # 7.8.4 Rows
 class ModelWriter(Models):

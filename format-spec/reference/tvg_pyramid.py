@@ -14,12 +14,18 @@ class Turn:
     def __init__(self, vertex, level, neighbours, weights):
         self.vertex, self.level, self.neighbours, self.weights = vertex, level, neighbours, weights
 
-def pyramid(faces, shape, m):
-    """The turns, in order. faces: in traversal indices; shape: the lattice indices of §5.3; m: neighbours at most."""
+def pyramid(faces, shape, m, given=()):
+    """The turns, in order. faces: in traversal indices; shape: the lattice indices of §5.3; m: neighbours at most; given:
+    the levels of §5.5, if any."""
     graph, removals, neighbours = first_graph(faces, shape), [], {}
     by_rank = sorted(graph, key=lambda v: v * 0x9E3779B1 % 2 ** 32)
-    while len(graph) > 32 and len(removals) < 48:
-        colour = colouring(graph, by_rank)
+    highest = max(given, default=0)
+    while highest > len(removals) or len(graph) > 32 and len(removals) < highest + 48:
+        if highest > len(removals):
+            removed = [v for v in by_rank if given[v] == highest - len(removals)]
+            colour = dict.fromkeys(graph, 0) | {v: c + 1 for v, c in colouring(graph, removed).items()}
+        else:
+            colour = colouring(graph, by_rank)
         last = max(colour.values())
         time = {v: last + 1 - c if c > 0 else 0 for v, c in colour.items()}
         removals.append(sorted((v for v in graph if colour[v] > 0), key=lambda v: (time[v], v)))
@@ -90,7 +96,9 @@ def colouring(graph, by_rank):
 
 def contracted(graph, colour):
     """The graph of the vertices of colour 0, to the nearest of which the others are drawn."""
-    drawn = {v: (0, v) if colour[v] == 0 else next(link for link in graph[v] if colour[link[1]] == 0) for v in graph}
+    drawn = {v: (0, v) for v in graph if colour[v] == 0}
+    drawn.update({v: link for v in graph if v not in drawn for link in graph[v][::-1] if colour[link[1]] == 0})
+    draw_further(graph, drawn)
     links = {v: {} for v in graph if colour[v] == 0}
     for x in graph:
         for between, y in graph[x]:
@@ -99,6 +107,25 @@ def contracted(graph, colour):
                 whole = min(way_x + between + way_y, LONGEST)
                 links[a][b] = min(links[a].get(b, LONGEST), whole)
     return sorted_links(links)
+
+def draw_further(graph, drawn):
+    """What has no link to a kept vertex. drawn: way and where to, of each vertex."""
+    near, queue = {}, []
+
+    def reach(y):
+        for between, x in graph[y]:
+            there = min(drawn[y][0] + between, LONGEST)
+            if x not in drawn and (x not in near or there < near[x][0]):
+                near[x] = there, drawn[y][1]
+                heapq.heappush(queue, (there, x))
+
+    for y in sorted(drawn):
+        reach(y)
+    while queue:
+        _, x = heapq.heappop(queue)
+        if x not in drawn:
+            drawn[x] = near[x]
+            reach(x)
 
 # 5.4.3 Neighbours
 def nearest(graph, time, v, m):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
-It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py, §7.8 in tvg_basis.py and
+It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py, §5.5 and §5.6 in tvg_levels.py, §7.8 in tvg_basis.py and
 tvg_rows.py, §7.9 in tvg_lossless.py). It does not recover from damage (§8.3): the first violation ends a stream.
 Python 3, standard library only.
 
@@ -26,6 +26,7 @@ from bisect import bisect_left
 from collections import deque
 
 from tvg_basis import Basis, BasisFrames  # 7.8
+from tvg_levels import levels_of, lods_of  # 5.5, 5.6
 from tvg_lossless import LosslessFrames, line_of  # 7.9
 from tvg_pyramid import pyramid  # 5.4
 
@@ -146,20 +147,38 @@ def unknown_text(key):
 
 class Mesh:
     """A mesh in force (4.3); number: that of its latest entry of the index among the meshes', from 1."""
-    def __init__(self, V, faces, gates, order, turns, shape):
-        self.V, self.gates, self.order, self.number = V, gates, order, 0
+    def __init__(self, V, gates, order, turns, shape, levels, lods):
+        self.gates, self.order, self.number = gates, order, 0
         self.turns = turns  # of the pyramid (5.4); None without a reference shape
         self.shape = shape  # lattice indices, origin and step; None without one
-        self.faces = [tuple(order[corner] for corner in face) for face in faces]  # in output order
+        self.levels, self.lods, self.lod = levels, lods, 0
+        self.drawn = range(V)
+
+    def draw(self, vertices, faces):
+        """What is given out: these vertices, in output order, with these faces, all in traversal indices."""
+        self.drawn = sorted(vertices, key=lambda v: self.order[v])
+        place = {v: i for i, v in enumerate(self.drawn)}
+        self.V, self.faces = len(self.drawn), [tuple(place[corner] for corner in face) for face in faces]
+
+    def parts(self):
+        """7.8.1 The vertices of each part of a basis."""
+        bounds = [0] + [lod.levels for lod in self.lods[::-1]]
+        if not self.lods:
+            return [range(len(self.gates))]
+        return [[v for v, level in enumerate(self.levels) if low <= level < high]
+                for low, high in zip(bounds, bounds[1:] + [64])]
 
 class Plan:
     """One of the latest PLAN chunks (4.9), and whether it is in force; number: that of its latest entry of the index among the plans', from 1."""
-    def __init__(self, mesh, adds_to, mode, basis):
-        self.mesh, self.adds_to, self.mode, self.basis, self.number = mesh, adds_to, mode, basis, 0
+    def __init__(self, mesh, adds_to, mode, base):
+        self.mesh, self.adds_to, self.mode, self.base, self.number = mesh, adds_to, mode, base, 0
+        self.part = base.part + 1 if base else 0
+        self.basis = None  # of the last part that is wanted
 
 class Decoder:
-    """Decodes one stream; the results are in its fields."""
-    def __init__(self, data):
+    """Decodes one stream, and of its meshes draws lod (5.6); the results are in its fields."""
+    def __init__(self, data, lod=0):
+        self.lod = lod
         self.data, self.metadata, self.named_data, self.frames = data, {}, {}, 0
         self.meshes, self.plans = {}, {}  # in force, or among the latest, by id; the latest comes last (4.3, 4.9)
         self.index = []  # what INDX should hold: (kind, offset of the chunk, fields)
@@ -251,6 +270,9 @@ class Decoder:
         planes += self.plan_bytes + 128 * self.vertices + 1536 * self.components
         require(bounds[9] >= memory + (shapes + planes if self.plan_bytes > 0 else 0), "4.1", "decoder_memory")
         self.room_for_shapes = bounds[9] >= memory + shapes
+        lods = 2 ** 18 + (64 + 16 * self.meshes_in_force) * self.vertices + (96 + 16 * self.meshes_in_force) * self.faces
+        lods += self.plans_in_force * self.plan_bytes + (planes if self.plan_bytes > 0 else 0)
+        self.room_for_lods = bounds[9] >= memory + shapes + lods
         for key, limit in LIMITS.items():
             require(bounds[key] <= limit, "8.1", f"key {key}: more than this decoder allows", "limit-exceeded")
 
@@ -293,17 +315,29 @@ class Decoder:
             last = kind
         require(1 in sections, "4.3", "no connectivity")
         for kind in sections:
-            require(kind in (1, 3, 5) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+            require(kind in (1, 3, 5, 7, 9) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
         require(5 not in sections or self.room_for_shapes, "8.2", "decoder_memory is too little for shapes",
+                "limit-exceeded")
+        require(9 not in sections or 7 in sections, "5.6", "coarse meshes without levels")
+        require(9 not in sections or self.room_for_lods, "8.2", "decoder_memory is too little for coarse meshes",
                 "limit-exceeded")
         require(V + F <= 128 * len(sections[1]) and F <= 2 ** 30, "5.1", "too many vertices or faces",
                 "limit-exceeded")
         faces, gates = Connectivity(RangeDecoder(sections[1], "5.1"), V, F).decode()
         order = vertex_order(sections[3], gates) if 3 in sections else list(range(V))
+        levels = levels_of(sections[7], gates, sys.modules[__name__]) if 7 in sections else ()
+        lods = lods_of(sections[9], levels, F, sys.modules[__name__]) if 9 in sections else []
         turns = shape = None
         if 5 in sections:
-            shape, turns = shape_and_turns(sections[5], faces, V)
-        return Mesh(V, faces, gates, order, turns, shape)
+            shape, turns = shape_and_turns(sections[5], faces, V, levels)
+        mesh = Mesh(V, gates, order, turns, shape, levels, lods)
+        mesh.lod = min(self.lod, len(lods))
+        if mesh.lod > 0:
+            lod = lods[mesh.lod - 1]
+            mesh.draw(lod.vertices, lod.faces(sys.modules[__name__]))
+        else:
+            mesh.draw(range(V), faces)
+        return mesh
 
     def entries(self, kind):
         """How many entries of a kind the index has so far."""
@@ -371,12 +405,10 @@ class Decoder:
             self.shown_vertices += mesh.V
             self.shown_faces += len(mesh.faces)
             self.face_bytes += b"".join(struct.pack("<3I", *face) for face in mesh.faces)
-        indices, positions = [b""] * mesh.V, [b""] * mesh.V
-        for v, place in enumerate(mesh.order):
+        for v in mesh.drawn:
             index, at = frames.given_out(v)
-            indices[place], positions[place] = struct.pack("<3i", *index), struct.pack("<3f", *at)
-        self.index_bytes += b"".join(indices)
-        self.position_bytes += b"".join(positions)
+            self.index_bytes += struct.pack("<3i", *index)
+            self.position_bytes += struct.pack("<3f", *at)
         self.frames += 1
         self.shown = mesh
 
@@ -424,15 +456,32 @@ class Decoder:
         mesh, adds_to, mode = reader.unsigned(4), reader.varint(), reader.varint()
         require(mesh in self.meshes, "4.9", "the mesh is not in force")
         require(mode != MODE_ELP, "4.9", "mode elp shares nothing")
+        require(adds_to <= 2 ** 32, "4.9", "adds_to")
+        base = self.plans.get(adds_to - 1) if adds_to > 0 else None
+        owner = (base.mesh, base.mode) if base and base.in_force else None
+        require(adds_to == 0 or owner == (mesh, mode), "4.9", "what planes add to is not in force, or not theirs")
         self.index.append((PLAN_ENTRY, offset, ()))
         plan = self.plans.pop(identity, None)
         if plan is None:
-            known = (mode, adds_to) == (MODE_BASIS, 0)
-            basis = Basis(reader, self.meshes[mesh], self.components, sys.modules[__name__]) if known else None
-            plan = Plan(mesh, adds_to, mode, basis)
+            plan = Plan(mesh, adds_to, mode, base)
+            if mode == MODE_BASIS:
+                self.basis_part(plan, reader)
         self.plans[identity], plan.number, plan.in_force = plan, self.entries(PLAN_ENTRY), True
         if len(self.plans) > self.plans_in_force:
             del self.plans[next(iter(self.plans))]
+
+    def basis_part(self, plan, reader):
+        """7.8.1 The plan: with the last part that is wanted, all of them are decoded."""
+        mesh = self.meshes[plan.mesh]
+        require(plan.part <= len(mesh.lods), "7.8.1", "planes add to the last part")
+        plan.fields = reader.rest()
+        if plan.part != len(mesh.lods) - mesh.lod:
+            return
+        readers, part = [], plan
+        while part:
+            readers.insert(0, Reader(part.fields, "7.8.1"))
+            part = part.base
+        plan.basis = Basis(readers, mesh, self.components, sys.modules[__name__])
 
 def text(data, section):
     """Text as in 4.2."""
@@ -462,15 +511,16 @@ class Header:
         require(self.mode in (MODE_ELP, MODE_BASIS, MODE_LOSSLESS), "4.5.1", f"mode {self.mode}", "unsupported")
         for plan in named:
             require((plan.mesh, plan.mode) == (self.mesh, self.mode), "4.5.1", "planes of another mesh or mode")
-            require(plan.adds_to == 0, "4.9", "adds_to", "unsupported")
-        self.bases = [plan.basis for plan in named]
+        self.named = named
 
     def frames(self, mesh):
         """Reads the fields of the mode; what decodes the frames of the GOP."""
-        require(len(self.planes) == (self.mode == MODE_BASIS), "4.5.1", "number of planes")
+        require(len(self.planes) == (1 + len(mesh.lods) if self.mode == MODE_BASIS else 0), "4.5.1", "number of planes")
+        for plan, base in zip(self.named, [None] + self.named):
+            require(plan.base is base, "4.5.1", "planes that are no basis")
         self.read_channels()
         if self.mode == MODE_BASIS:
-            return self.rows()
+            return self.rows(self.named[len(mesh.lods) - mesh.lod].basis)
         return self.elp(mesh) if self.mode == 0 else self.lossless(mesh)
 
     def read_channels(self):
@@ -485,12 +535,12 @@ class Header:
         for channel in self.channels[1:]:
             require(channel % 2 == 0, "4.5.1", unknown_text(channel), "unsupported")
 
-    def rows(self):
+    def rows(self, basis):
         """The fields of mode basis."""
         self.predictors = 1 << ROWS
         self.reader.end()
         self.refuse_unknown_channels()
-        return BasisFrames(self.bases[0], sys.modules[__name__])
+        return BasisFrames(basis, sys.modules[__name__])
 
     def lossless(self, mesh):
         """The fields of mode lossless."""
@@ -746,10 +796,10 @@ def reference_shape(data, faces, V):
     indices = ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode()
     return Shape(indices, origin, step), neighbours
 
-def shape_and_turns(data, faces, V):
+def shape_and_turns(data, faces, V, levels=()):
     """5.3 and 5.4."""
     shape, neighbours = reference_shape(data, faces, V)
-    return shape, pyramid(faces, shape.indices, neighbours)
+    return shape, pyramid(faces, shape.indices, neighbours, levels)
 
 class Shape:
     """5.3 Where a reference shape has the vertices: indices on a lattice."""
@@ -1331,10 +1381,10 @@ def flag_bits(coder, gates):
         flag.append(coder.bit(models[4 if gate[2] == NONE else sum(flag[w] for w in gate)]))
     return flag
 
-def decode(path):
-    """Decode the stream in a file; the decoder holds what it is."""
+def decode(path, lod=0):
+    """Decode the stream in a file and draw this lod; the decoder holds what it is."""
     with open(path, "rb") as file:
-        decoder = Decoder(file.read())
+        decoder = Decoder(file.read(), lod)
     decoder.decode()
     return decoder
 

@@ -8,6 +8,7 @@ import struct
 from bisect import bisect_left
 from collections import deque
 
+import tvg_levels
 import tvg_reference as reference
 from tvg_lossless import LosslessFrames, line_of
 from tvg_reference import ANCILLARY, NONE, SIGNATURE, checksum, xxh64
@@ -65,13 +66,15 @@ def chunk(kind, payload, flags=None):
 KEYS = {"vertices": 1, "faces": 3, "frames_per_gop": 5, "packet_bytes": 7, "decoder_memory": 9, "meshes": 11,
         "mesh_bytes": 13, "plan_bytes": 15, "components": 17, "plans": 19}
 
-def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, plan_bytes=0, components=0, plans=1, shapes=False, **_):
-    """8.2 Memory. shapes: whether meshes have reference shapes."""
+def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, plan_bytes=0, components=0, plans=1, shapes=False, lods=False,
+           **_):
+    """8.2 Memory. shapes, lods: whether meshes have reference shapes, coarse meshes."""
     planes = plan_bytes + plans * (4096 + components * (64 + 4 * vertices) + 8 * vertices) + 128 * vertices + 1536 * components
     return (2 ** 20 + 160 * vertices + 96 * faces + 4 * packet_bytes + mesh_bytes
             + (meshes - 1) * (512 + 24 * vertices + 16 * faces)
-            + (vertices * (400 + 128 * meshes) + 96 * faces if shapes or plan_bytes else 0)
-            + (planes if plan_bytes else 0))
+            + (vertices * (400 + 128 * meshes) + 96 * faces if shapes or lods or plan_bytes else 0)
+            + (planes if plan_bytes else 0)
+            + (plans * plan_bytes + 2 ** 18 + vertices * (64 + 16 * meshes) + faces * (96 + 16 * meshes) if lods else 0))
 
 def head(version=(0, 2), others=None, **bounds):
     """others: values of keys that have no name. A bound that is None is left out."""
@@ -345,6 +348,22 @@ def uniform_order(order):
     assert reference.uniform_order(coder, order, list(range(len(order)))) == list(order)
     coder.finish()
     return b"\2" + coder.data
+
+# 5.5 Levels
+def levels(level, gates):
+    """The section of these levels, valid or not."""
+    n, coder = max(level) + 1, RangeEncoder()
+    for l in level:
+        coder.say(*([0] * (n - 1 - l) + [1] * (l > 0)))
+    tvg_levels.level_bits(coder, gates, n, tvg_levels.level_models(reference), NONE)
+    coder.finish()
+    return bytes([n]) + coder.data
+
+# 5.6 Coarse meshes
+def lods(meshes):
+    """meshes: levels, vertex_count, face_count, connectivity and order of each."""
+    return varint(len(meshes)) + b"".join(b"".join(map(varint, fields)) + sized(connectivity) + sized(order)
+                                          for *fields, connectivity, order in meshes)
 
 # 5.3 Reference shape
 class ShapeWriter(reference.ReferenceShape):

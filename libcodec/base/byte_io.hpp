@@ -41,7 +41,7 @@ class ByteWriter {
 /// yields zero and makes ok() false.
 class ByteReader {
  public:
-  explicit ByteReader(Bytes bytes) : bytes_(bytes) {}
+  explicit ByteReader(Bytes bytes = {}) : bytes_(bytes) {}
 
   std::uint8_t u8() { return static_cast<std::uint8_t>(little_endian(1)); }
   std::uint16_t u16() { return static_cast<std::uint16_t>(little_endian(2)); }

@@ -69,13 +69,14 @@ class StepSearch {
 
 class Fitter {
  public:
-  Fitter(const Trajectories& trajectories, const Pyramid& pyramid, std::span<const std::uint8_t> flags,
-         int nested_bits, const FitTarget& target)
+  Fitter(const Trajectories& trajectories, const Pyramid& pyramid, std::span<const std::size_t> part_ends,
+         std::span<const std::uint8_t> flags, int nested_bits, const FitTarget& target)
       : trajectories_(trajectories),
         target_(target),
         components_(principal_components(trajectories.weighted, may_be_left_out(target))),
-        coefficients_{pyramid,          flags, nested_bits, components_.coefficients, components_.energies,
-                      components_.total},
+        coefficients_{
+            pyramid,           flags,    nested_bits, components_.coefficients, components_.energies,
+            components_.total, part_ends},
         row_costs_(components_.rows) {}
 
   FittedBasis run(const FitEffort& effort) {
@@ -157,9 +158,9 @@ class Fitter {
 }  // namespace
 
 FittedBasis fit_basis(const Trajectories& trajectories, const Pyramid& pyramid,
-                      std::span<const std::uint8_t> flags, int nested_bits, const FitTarget& target,
-                      const FitEffort& effort) {
-  return Fitter(trajectories, pyramid, flags, nested_bits, target).run(effort);
+                      std::span<const std::size_t> part_ends, std::span<const std::uint8_t> flags,
+                      int nested_bits, const FitTarget& target, const FitEffort& effort) {
+  return Fitter(trajectories, pyramid, part_ends, flags, nested_bits, target).run(effort);
 }
 
 }  // namespace tvg

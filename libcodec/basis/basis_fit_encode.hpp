@@ -35,10 +35,10 @@ struct FitEffort {
 };
 
 /// The basis whose stream is smallest of those that were tried and hit the target. `pyramid` and `flags` are
-/// those of the vertices, in their order. Where no step is fine enough, `squared_error` or `largest_error` of
-/// the result are above the target.
+/// those of the vertices, in their order; `part_ends` are those of CoefficientCoder, at least one. Where no
+/// step is fine enough, `squared_error` or `largest_error` of the result are above the target.
 FittedBasis fit_basis(const Trajectories& trajectories, const Pyramid& pyramid,
-                      std::span<const std::uint8_t> flags, int nested_bits, const FitTarget& target,
-                      const FitEffort& effort);
+                      std::span<const std::size_t> part_ends, std::span<const std::uint8_t> flags,
+                      int nested_bits, const FitTarget& target, const FitEffort& effort);
 
 }  // namespace tvg

@@ -118,16 +118,24 @@ CodedCoefficients code_coefficients(const Coefficients& coefficients, const Coef
   const double price = quality.thrift * std::log(2.0) / 6 * squared_step;
   CodedCoefficients result;
   result.error = coefficients.total;
-  CoefficientCoder coder(coefficients.pyramid, coefficients.flags, coefficients.nested_bits);
+  CoefficientCoder coder(coefficients.pyramid, coefficients.flags, coefficients.nested_bits,
+                         coefficients.part_ends);
   RangeEncoder encoder;
   std::vector<Quad> values(static_cast<std::size_t>(coefficients.values.rows()));
   while (result.components < coefficients.energies.size()) {
     const std::size_t first = result.components;
     const std::size_t count = std::min(CoefficientCoder::kPlanes, coefficients.energies.size() - first);
-    coder.code(encoder, values, count, ResidualChooser(coefficients, quality, first));
-    std::vector<std::uint8_t> group = encoder.finish();
+    coder.begin_group(count);
+    std::vector<std::vector<std::uint8_t>> group;
+    std::size_t bytes = 0;
+    for (std::size_t part = 0; part < coefficients.part_ends.size(); ++part) {
+      coder.code_part(part, encoder, values, ResidualChooser(coefficients, quality, first));
+      group.push_back(encoder.finish());
+      bytes += group.back().size() + 2;
+    }
+    coder.end_group();
     double gain = -squared_step * error_of(coefficients, quality, first, count, values);
-    double bits = 8.0 * static_cast<double>(group.size() + 2);
+    double bits = 8.0 * static_cast<double>(bytes);
     for (std::size_t a = first; a < first + count; ++a) {
       gain += coefficients.energies[a];
       bits += row_bits(a);
@@ -135,7 +143,7 @@ CodedCoefficients code_coefficients(const Coefficients& coefficients, const Coef
     if (first > 0 && gain < price * bits) break;
     result.components += count;
     result.error -= gain;
-    result.bytes += group.size() + 2;
+    result.bytes += bytes;
     result.groups.push_back(std::move(group));
     result.values.push_back(values);
   }

@@ -21,11 +21,12 @@ struct CoefficientQuality {
 /// The coefficients of a basis as they are weighed: planes by falling energy.
 struct Coefficients {
   const Pyramid& pyramid;
-  std::span<const std::uint8_t> flags;  ///< [vertex]; empty where there is one lattice
-  int nested_bits = 0;                  ///< between the two
-  const Eigen::MatrixXf& values;        ///< [vertex][component], each vertex times its weight
-  std::span<const double> energies;     ///< [component] sum of squares
-  double total = 0;                     ///< that of all there are, with those that are not here
+  std::span<const std::uint8_t> flags;     ///< [vertex]; empty where there is one lattice
+  int nested_bits = 0;                     ///< between the two
+  const Eigen::MatrixXf& values;           ///< [vertex][component], each vertex times its weight
+  std::span<const double> energies;        ///< [component] sum of squares
+  double total = 0;                        ///< that of all there are, with those that are not here
+  std::span<const std::size_t> part_ends;  ///< [part] the turn it ends before; see CoefficientCoder
 
   /// Bits between the lattice of a vertex and the fine one.
   int shift_of(std::size_t vertex) const { return flags.empty() || flags[vertex] != 0 ? 0 : nested_bits; }
@@ -34,8 +35,8 @@ struct Coefficients {
 /// Planes of a basis, coded.
 struct CodedCoefficients {
   std::size_t components = 0;
-  std::vector<std::vector<std::uint8_t>> groups;
-  std::vector<std::vector<Quad>> values;  ///< [group][vertex] on the fine lattice
+  std::vector<std::vector<std::vector<std::uint8_t>>> groups;  ///< [group][part]
+  std::vector<std::vector<Quad>> values;                       ///< [group][vertex] on the fine lattice
   double error = 0;       ///< sum of squares with what was left out, in the units of the coefficients
   std::size_t bytes = 0;  ///< of the groups
 };

@@ -199,7 +199,8 @@ tvg_code tvg_decoder_get_mesh(const tvg_decoder* decoder, tvg_mesh_info* mesh) {
   const tvg::Mesh& decoded = decoder->decoder.mesh();
   return give<tvg_mesh_info>(
       {sizeof(tvg_mesh_info), decoded.vertex_count, static_cast<std::uint32_t>(decoded.faces.size()),
-       decoded.faces.empty() ? nullptr : decoded.faces.front().data()},
+       decoded.faces.empty() ? nullptr : decoded.faces.front().data(), decoder->decoder.lod_count(),
+       decoder->decoder.mesh_info().lod},
       mesh);
 }
 
@@ -324,6 +325,12 @@ uint64_t tvg_decoder_skip(tvg_decoder* decoder) {
 tvg_code tvg_decoder_use_components(tvg_decoder* decoder, uint32_t most) {
   if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
   decoder->decoder.use_components(most);
+  return TVG_OK;
+}
+
+tvg_code tvg_decoder_use_lod(tvg_decoder* decoder, uint32_t lod) {
+  if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
+  decoder->decoder.use_lod(lod);
   return TVG_OK;
 }
 

@@ -5,17 +5,21 @@
 #include <span>
 #include <vector>
 
+#include <tvg/levels.hpp>
+
 namespace tvg {
 
-/// The sections of a mesh that say how it hangs together (format-spec §5.1, §5.2), and the mesh as the
-/// decoder will know it. Frames are given in the order of `mesh` on both sides, unless `keep_order` is false:
-/// the decoder then gives them in traversal order.
+/// The sections of a mesh that say how it hangs together (format-spec §5.1, §5.2, §5.5, §5.6), and the mesh
+/// as the decoder will know it. Frames are given in the order of `mesh` on both sides, unless `keep_order` is
+/// false: the decoder then gives them in traversal order.
 struct EncodedMesh {
   std::vector<std::uint8_t> connectivity, order;
-  CodedMesh coded;  ///< not named yet: the payload names it
+  std::vector<std::uint8_t> levels, lods;  ///< empty where there are none
+  CodedMesh coded;                         ///< not named yet: the payload names it
 };
 
-EncodedMesh encode_mesh(const Mesh& mesh, bool keep_order);
+/// `levels` fit the mesh; null where there are none.
+EncodedMesh encode_mesh(const Mesh& mesh, bool keep_order, const MeshLevels* levels = nullptr);
 
 /// The payload of the mesh's chunk (§4.3), with a reference shape (§5.3) where that is not empty; names the
 /// mesh.

@@ -64,6 +64,8 @@ std::optional<ChunkReader::Event> ChunkReader::step() {
       return read_signature();
     case Phase::kChunkHeader:
       return read_header();
+    case Phase::kPlanes:
+      return look_at_planes();
     case Phase::kPayload:
       return read_payload();
     case Phase::kPassOver:
@@ -164,6 +166,7 @@ std::uint64_t ChunkReader::skip() {
   consume(available().size());
   offset_ += count;
   phase_ = Phase::kChunkHeader;
+  if (unwanted_) whole_ = false;
   return count;
 }
 
@@ -261,6 +264,7 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
   hashed_ = true;
   packet_number_ = 0;
   digest_met_ = false;
+  unwanted_ = false;
   enter_state(header, kind);
   used_ = kChunkHeaderSize;
   if (kind == ChunkKind::kAncillary || verdict == OrderRule::Verdict::kPassOver) {
@@ -269,7 +273,7 @@ ChunkReader::Event ChunkReader::use_header(const ChunkHeader& header, ChunkKind 
     phase_ = Phase::kPacket;
     if (!reserve_for_packets()) return fail(out_of_memory());
   } else {
-    phase_ = Phase::kPayload;
+    phase_ = kind == ChunkKind::kPlan && leaves_out_ ? Phase::kPlanes : Phase::kPayload;
   }
   return Event::kChunk;
 }
@@ -347,6 +351,9 @@ std::optional<ChunkReader::Event> ChunkReader::end_payload() {
         stream_error(ErrorCode::kChecksumMismatch, "§3.3", {"chunk '", text(chunk_.type), "' is damaged"}));
   }
   if (!in_sequence() || !flag_fits(chunk_, kind_)) return std::nullopt;
+  if (unwanted_)
+    return note_plan(owner_of_planes(plan_.mesh, plan_.mode), {}) ? std::nullopt
+                                                                  : std::optional(fail(out_of_memory()));
   // Too long to be read, but others go out of force by it.
   const bool noted = kind_ == ChunkKind::kMesh   ? note_mesh(0, ErrorCode::kLimitExceeded)
                      : kind_ == ChunkKind::kPlan ? note_plan(0, ErrorCode::kLimitExceeded)

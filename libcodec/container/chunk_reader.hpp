@@ -69,12 +69,20 @@ class ChunkReader {
   void keep(std::shared_ptr<const void> content) {
     window_of(kind_).find(payload_checksum_)->content = std::move(content);
   }
+  /// Of the mesh given out last only so many parts of planes are wanted: those that add to as many others are
+  /// passed over, and GOPs need not have them.
+  void want_parts(std::uint32_t count) {
+    meshes_.find(payload_checksum_)->parts_wanted = count;
+    leaves_out_ = true;
+  }
   /// The content given out last cannot be used though its checksum fits. Of a GOP the rest is passed over;
   /// what is malformed may be damage by chance, so that the next chunk is looked for. A mesh or planes stay
   /// in force as what cannot be used.
   void reject(ErrorCode why);
   /// Passes over the rest of the current GOP unread.
   void pass_over();
+  /// Whether planes are being passed over that are not wanted.
+  bool passes_unwanted() const { return phase_ == Phase::kPassOver && unwanted_; }
   /// While a chunk is passed over: how many of the bytes that come next in the input belong to it. They
   /// count as pushed.
   std::uint64_t skip();
@@ -127,6 +135,7 @@ class ChunkReader {
   enum class Phase {
     kStart,
     kChunkHeader,
+    kPlanes,    ///< a payload of planes, of which the header tells whether they are wanted
     kPayload,   ///< a payload that is used whole
     kPassOver,  ///< one that is not used
     kPacket,
@@ -143,6 +152,7 @@ class ChunkReader {
   OrderRule rule_for(const ChunkHeader& header, ChunkKind kind) const;
   Event refuse_header(const ChunkHeader& header, ChunkKind kind, const OrderRule& rule);
   Event use_header(const ChunkHeader& header, ChunkKind kind, OrderRule::Verdict verdict);
+  std::optional<Event> look_at_planes();
   std::optional<Event> read_payload();
   std::optional<Event> use_payload(Bytes payload);
   Event use_head(Bytes payload);
@@ -155,10 +165,11 @@ class ChunkReader {
   std::optional<Event> next_packet();
   Event use_packet(const PacketRead& packet);
   Event use_gop_header();
-  Fault find_planes(const ChunkWindow::Entry& mesh, PlaneList& back) const;
-  Fault check_planes() const;
+  Fault find_planes(const ChunkWindow::Entry& mesh, PlaneList& back);
+  Fault check_planes(const ChunkWindow::Entry& mesh) const;
   bool note_mesh(std::uint32_t vertex_count, std::optional<ErrorCode> fault);
   bool note_plan(std::uint64_t owner, std::optional<ErrorCode> fault);
+  const ChunkWindow::Entry* base_of_planes(const ChunkWindow::Entry& mesh) const;
   Event misplaced(const char* sentence);
   Event lose_gop(const Fault& fault);
   std::optional<Event> end_packets();
@@ -206,8 +217,10 @@ class ChunkReader {
   std::uint32_t payload_checksum_ = 0;  ///< of the payload used last
   MeshLayout mesh_{};
   ChunkWindow meshes_;
+  bool leaves_out_ = false;  ///< of some mesh not all parts of planes are wanted
   PlanHeader plan_;
-  ChunkWindow plans_;  ///< `number` is owner_of_planes(); 0 where their header could not be read
+  bool unwanted_ = false;  ///< the planes being passed over are
+  ChunkWindow plans_;      ///< `number` is owner_of_planes(); 0 where their header could not be read
 
   GopHeader gop_;
   Predictor predictor_ = Predictor::kSpace;

@@ -21,6 +21,9 @@ class ChunkWindow {
     std::uint64_t offset = 0;                  ///< of the latest chunk with this id
     std::uint64_t ordinal = 0;                 ///< of that chunk among those of its kind, counted from 1
     std::uint64_t number = 0;                  ///< what its user notes of it
+    std::uint64_t adds_to = 0;                 ///< of planes: what their header says
+    std::uint32_t part = 0;                    ///< of planes: how many chunks there are that they add to
+    std::uint32_t parts_wanted = 0;            ///< of a mesh: such chunks that its reader wants; 0 for all
     std::shared_ptr<const void> content = {};  ///< what its user made of it
   };
 

@@ -103,22 +103,37 @@ ChunkReader::Event ChunkReader::use_gop_header() {
                        .planes_back = std::move(planes_back)});
   if (mesh->fault) return lose_gop({"§4.3", "the mesh of a GOP cannot be used", *mesh->fault});
   if (!is_known_mode(gop_.mode)) return lose_gop(kUnknownMode);
-  if (const Fault fault = check_planes()) return lose_gop(fault);
+  if (const Fault fault = check_planes(*mesh)) return lose_gop(fault);
   packet_number_ = 1;
   frames_met_ = 0;
   return Event::kGop;
 }
 
-/// Whether the planes that the GOP names are in force; `back` becomes how far back each is.
+namespace {
+
+/// How many of the planes that a GOP of this mesh names are needed.
+std::size_t planes_needed(const GopHeader& gop, const ChunkWindow::Entry& mesh) {
+  const std::size_t all = gop.plane_count();
+  return mesh.parts_wanted == 0 ? all : std::min<std::size_t>(all, mesh.parts_wanted);
+}
+
+}  // namespace
+
+/// Whether the planes are in force that the GOP names and that are needed; `back` becomes how far back each
+/// is.
 // format-spec §4.5.1, §4.9
-Fault ChunkReader::find_planes(const ChunkWindow::Entry& mesh, PlaneList& back) const {
+Fault ChunkReader::find_planes(const ChunkWindow::Entry& mesh, PlaneList& back) {
   std::array<std::uint64_t, GopHeader::kMostPlanes> numbers{};
   const auto named = std::span(numbers).first(gop_.plane_count());
   ByteReader ids(gop_.planes);
+  std::size_t needed = planes_needed(gop_, mesh);
   for (std::uint64_t& number : named) {
     const auto* const plan = plans_.find(ids.u32());
-    if (plan == nullptr || plan->offset < mesh.offset) return {"§4.5.1", "planes of a GOP are not in force"};
-    number = plans_.back(*plan);
+    const bool in_force = plan != nullptr && plan->offset >= mesh.offset;
+    if (!in_force && needed > 0) return {"§4.5.1", "planes of a GOP are not in force"};
+    if (!in_force) whole_ = false;  // how far back they are is not known
+    number = in_force ? plans_.back(*plan) : 1;
+    if (needed > 0) --needed;
   }
   std::optional<PlaneList> list = PlaneList::of(named);
   if (!list) return {"", "out of memory", ErrorCode::kOutOfMemory};
@@ -126,12 +141,12 @@ Fault ChunkReader::find_planes(const ChunkWindow::Entry& mesh, PlaneList& back) 
   return {};
 }
 
-/// Whether the planes that the GOP names, all in force, can be used for it.
+/// Whether the planes that the GOP needs, all in force, can be used for it.
 // format-spec §4.5.1
-Fault ChunkReader::check_planes() const {
+Fault ChunkReader::check_planes(const ChunkWindow::Entry& mesh) const {
   const std::uint64_t owner = owner_of_planes(gop_.mesh, gop_.mode);
   ByteReader ids(gop_.planes);
-  for (std::size_t i = 0; i < gop_.plane_count(); ++i) {
+  for (std::size_t i = 0; i < planes_needed(gop_, mesh); ++i) {
     const auto* const plan = plans_.find(ids.u32());
     if (plan->number != 0 && plan->number != owner)
       return {"§4.5.1", "planes of a GOP belong to another mesh or mode"};

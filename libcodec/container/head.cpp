@@ -186,6 +186,11 @@ bool has_room_for_shapes(const StreamLimits& limits) {
   return limits.decoder_memory >= decoder_memory_with_shapes(limits);
 }
 
+/// Whether they may have coarser ones.
+bool has_room_for_lods(const StreamLimits& limits) {
+  return limits.decoder_memory >= decoder_memory_with_lods(limits);
+}
+
 }  // namespace
 
 StreamLimits larger_limits(const StreamLimits& a, const StreamLimits& b) {
@@ -200,8 +205,10 @@ StreamLimits larger_limits(const StreamLimits& a, const StreamLimits& b) {
   limits.components = std::max(a.components, b.components);
   limits.plans = std::max(a.plans, b.plans);
   const bool shapes = has_room_for_shapes(a) || has_room_for_shapes(b);
+  const bool lods = has_room_for_lods(a) || has_room_for_lods(b);
   const std::uint64_t needed =
-      std::max(least_memory(limits), shapes ? decoder_memory_with_shapes(limits) : 0);
+      std::max({least_memory(limits), shapes ? decoder_memory_with_shapes(limits) : 0,
+                lods ? decoder_memory_with_lods(limits) : 0});
   limits.decoder_memory = std::max({a.decoder_memory, b.decoder_memory, needed});
   return limits;
 }

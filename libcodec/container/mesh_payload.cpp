@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint64_t kConnectivity = 1;
 constexpr std::uint64_t kVertexOrder = 3;
 constexpr std::uint64_t kReferenceShape = 5;
+constexpr std::uint64_t kLevels = 7;
+constexpr std::uint64_t kLods = 9;
 
 void write_section(ByteWriter& writer, std::uint64_t kind, Bytes content) {
   writer.varint(kind);
@@ -30,6 +32,8 @@ std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh) {
   write_section(writer, kConnectivity, mesh.connectivity);
   if (mesh.keeps_order) write_section(writer, kVertexOrder, mesh.order);
   if (!mesh.shape.empty()) write_section(writer, kReferenceShape, mesh.shape);
+  if (!mesh.levels.empty()) write_section(writer, kLevels, mesh.levels);
+  if (!mesh.lods.empty()) write_section(writer, kLods, mesh.lods);
   return writer.take();
 }
 
@@ -60,11 +64,18 @@ Fault parse(ByteReader reader, MeshLayout& mesh) {
     } else if (kind == kReferenceShape) {
       if (content.empty()) return {"§5.3", "the reference shape of the mesh is empty"};
       mesh.shape = content;
+    } else if (kind == kLevels) {
+      if (content.empty()) return {"§5.5", "the levels of the mesh are empty"};
+      mesh.levels = content;
+    } else if (kind == kLods) {
+      if (content.empty()) return {"§5.6", "the coarse meshes of the mesh are empty"};
+      mesh.lods = content;
     } else if (is_required(kind)) {
       return {kSection, "the mesh has a section that this decoder does not know", ErrorCode::kUnsupported};
     }
   }
   if (!has_connectivity) return {kSection, "the mesh has no connectivity"};
+  if (mesh.levels.empty() && !mesh.lods.empty()) return {"§5.6", "the mesh has coarse meshes and no levels"};
   return {};
 }
 
@@ -76,8 +87,9 @@ Result<MeshLayout> read_mesh(Bytes payload) {
   return mesh;
 }
 
-std::uint32_t most_mesh_bytes(const StreamLimits& limits, bool with_shape) {
-  std::uint64_t bytes = 64 + 16 * (std::uint64_t{limits.vertices} + limits.faces);
+std::uint32_t most_mesh_bytes(const StreamLimits& limits, bool with_shape, std::size_t coarse_meshes) {
+  std::uint64_t bytes =
+      64 + 16 * (1 + coarse_meshes) * (std::uint64_t{limits.vertices} + limits.faces) + 64 * coarse_meshes;
   if (with_shape) bytes += 64 + 24 * std::uint64_t{limits.vertices};
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, kMaxChunkLength));
 }

@@ -5,6 +5,12 @@
 
 namespace tvg {
 
+namespace {
+
+constexpr std::uint64_t kMostAddsTo = std::uint64_t{1} << 32;
+
+}  // namespace
+
 std::vector<std::uint8_t> write_plan(const PlanHeader& plan) {
   ByteWriter writer;
   writer.u32(plan.mesh);
@@ -21,6 +27,7 @@ Fault read_plan(Bytes payload, PlanHeader& plan) {
   plan.adds_to = reader.varint();
   plan.mode = reader.varint();
   if (!reader.ok()) return {"§4.9", "the chunk of planes is too short"};
+  if (plan.adds_to > kMostAddsTo) return {"§4.9", "planes add to others that have no name"};
   if (plan.mode == kModeElp) return {"§4.9", "GOPs in mode elp share no planes"};
   plan.fields = reader.bytes(reader.left());
   return {};

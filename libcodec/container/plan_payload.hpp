@@ -11,8 +11,8 @@ namespace tvg {
 
 /// §4.9: planes that several GOPs share, as far as they do not depend on the mode.
 struct PlanHeader {
-  std::uint32_t mesh = 0;  ///< id of the mesh
-  std::uint64_t adds_to = 0;
+  std::uint32_t mesh = 0;     ///< id of the mesh
+  std::uint64_t adds_to = 0;  ///< 0, or 1 more than the name of the planes that these add to
   std::uint64_t mode = 0;
   Bytes fields;  ///< those of the mode
 };
@@ -23,6 +23,9 @@ constexpr std::uint64_t owner_of_planes(std::uint32_t mesh, std::uint64_t mode) 
   constexpr std::uint64_t kMost = 0xFFFFFFFF;
   return std::uint64_t{mesh} << 32 | (mode < kMost ? mode : kMost);
 }
+
+/// Bytes of a payload from which the fields above can be read.
+inline constexpr std::size_t kPlanHeaderBytes = 4 + 10 + 10;
 
 std::vector<std::uint8_t> write_plan(const PlanHeader& plan);
 /// Reads a payload into `plan`.

@@ -40,10 +40,14 @@ struct Needed {
 
   bool full() const { return meshes.full() && plans.full(); }
 
-  /// Adds what this GOP names and what lies before `end`. False where there is no memory.
-  bool add_for(const StreamMap::Place& gop, std::uint64_t end) {
+  /// Adds what this GOP names and what lies before `end`, but for so many chunks of planes at the end, the
+  /// first always. False where there is no memory.
+  bool add_for(const StreamMap::Place& gop, std::uint64_t end, std::uint32_t left_out) {
     if (gop.mesh_offset && *gop.mesh_offset < end && !meshes.add(*gop.mesh_offset)) return false;
-    const auto plan_offsets = gop.plan_offsets.numbers();
+    const auto named = gop.plan_offsets.numbers();
+    const auto plan_offsets =
+        named.first(named.size() -
+                    std::min<std::size_t>(left_out, named.size() - std::min<std::size_t>(named.size(), 1)));
     return std::all_of(plan_offsets.begin(), plan_offsets.end(),
                        [&](std::uint64_t plan) { return plan >= end || plans.add(plan); });
   }
@@ -121,14 +125,15 @@ const StreamMap::Place* StreamMap::gop_for(std::uint64_t frame) const {
   return nullptr;
 }
 
-std::vector<std::uint64_t> StreamMap::needed_for(const Place& gop, const StreamLimits& limits) const {
+std::vector<std::uint64_t> StreamMap::needed_for(const Place& gop, const StreamLimits& limits,
+                                                 std::uint32_t lod) const {
   const bool has_planes = limits.plan_bytes > 0;
   if (limits.meshes <= 1 && !has_planes)
     return gop.mesh_offset ? std::vector<std::uint64_t>{*gop.mesh_offset} : std::vector<std::uint64_t>();
   Needed needed{NeededChunks(limits.meshes), NeededChunks(has_planes ? limits.plans : 0)};
   const auto first = static_cast<std::size_t>(&gop - places_.data());
   for (const Place& place : places().subspan(first)) {
-    if (place.entry.is_gop() && !needed.add_for(place, gop.entry.offset)) return {};
+    if (place.entry.is_gop() && !needed.add_for(place, gop.entry.offset, from_index_ ? lod : 0)) return {};
   }
   for (std::size_t i = first; !from_index_ && i-- > 0 && !needed.full();) {
     if (!needed.add_chunk(places_[i].entry)) return {};

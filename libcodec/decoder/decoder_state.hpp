@@ -40,6 +40,7 @@ class Decoder::State {
   /// Decodes a frame and fills frame_bits; null while nobody asks for bits.
   Status (GopDecoder::*measured_take)(Bytes, Predictor, std::array<double, 3>&) = nullptr;
   std::uint32_t most_components = kMaxComponents;  ///< of planes that are read from now on
+  std::uint32_t lod = 0;                           ///< of meshes that are read from now on
 
  private:
   /// What the next structure of the stream yields; nothing where it is of no interest outside.
@@ -47,7 +48,8 @@ class Decoder::State {
   Event take_chunk();
   std::optional<Event> take_mesh();
   std::optional<Event> take_plan();
-  std::shared_ptr<const BasisPlan> plan_in_force(std::uint32_t id) const;
+  Result<PlanPart> decode_plan_read(const CodedMesh& coded, std::size_t part);
+  std::shared_ptr<const PlanPart> plan_in_force(std::uint32_t id) const;
   std::shared_ptr<const BasisPlan> plan_of_gop() const;
   Status decode_mesh_read();
   std::shared_ptr<const GopMesh> mesh_in_force(std::uint32_t id) const;

@@ -30,7 +30,7 @@ Result<std::uint64_t> Decoder::State::seek(std::uint64_t frame) {
   target_ = frame;
   needed_.clear();
   if (inside || beyond || gop_place == nullptr) return reader.input_offset();
-  needed_ = map_.needed_for(*gop_place, reader.head().limits);
+  needed_ = map_.needed_for(*gop_place, reader.head().limits, lod);
   jump(*next_stop());
   deferred_ = {};
   return reader.offset();
@@ -55,9 +55,9 @@ const StreamMap::Place* Decoder::State::next_stop() const {
 }
 
 std::uint64_t Decoder::State::skip() {
-  if (!target_) return 0;
+  if (!target_ && !reader.passes_unwanted()) return 0;
   if (const std::uint64_t count = reader.skip(); count > 0) return count;
-  if (!reader.at_chunk() || !map_.from_index()) return 0;
+  if (!target_ || !reader.at_chunk() || !map_.from_index()) return 0;
   const StreamMap::Place* const stop = next_stop();
   const std::uint64_t input_offset = reader.input_offset();
   if (stop == nullptr || stop->entry.offset <= input_offset) return 0;

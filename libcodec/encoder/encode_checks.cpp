@@ -1,6 +1,7 @@
 #include "encoder/encode_checks.hpp"
 
 #include "base/errors.hpp"
+#include "connectivity/coarse_mesh.hpp"
 #include "container/chunk.hpp"
 #include "container/mesh_payload.hpp"
 #include "container/metadata.hpp"
@@ -10,6 +11,7 @@
 #include "quantization/lattice_over_encode.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -102,6 +104,54 @@ Status check_options(const EncodeOptions& options) {
   return check_metadata(options.metadata);
 }
 
+Status check_pushed(const EncodeOptions& options) {
+  if (options.max_error && options.max_error->of_diagonal)
+    return invalid_argument("the diagonal is not known before the frames: give the error as a length");
+  return check_options(options);
+}
+
+namespace {
+
+Status check_coarse(const CoarseMesh& coarse, std::uint32_t finer, const MeshLevels& levels,
+                    const Mesh& mesh) {
+  if (coarse.levels == 0 || coarse.levels >= finer)
+    return invalid_argument("a coarse mesh must have fewer levels than the one before it, and one at least");
+  if (coarse.faces.size() > mesh.faces.size())
+    return invalid_argument("a coarse mesh must not have more faces than the mesh");
+  for (const Face& face : coarse.faces) {
+    for (const std::uint32_t v : face) {
+      if (v >= levels.level.size() || levels.level[v] >= coarse.levels)
+        return invalid_argument("a face of a coarse mesh has a vertex that is not of its levels");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_levels(const MeshLevels* levels, const Mesh& mesh) {
+  if (levels == nullptr) return {};
+  if (levels->level.size() != mesh.vertex_count)
+    return invalid_argument("there must be a level for each vertex of the mesh");
+  std::array<bool, kMaxVertexLevels> met{};
+  std::uint32_t count = 0;
+  for (const std::uint8_t level : levels->level) {
+    if (level >= kMaxVertexLevels) return invalid_argument("levels must be 0 to 63");
+    met[level] = true;
+    count = std::max(count, level + 1u);
+  }
+  if (!std::all_of(met.begin(), met.begin() + count, [](bool there) { return there; }))
+    return invalid_argument("there must be a vertex of each level up to the highest");
+  if (levels->coarse.size() > kMaxCoarseMeshes)
+    return invalid_argument("there must be at most " + std::to_string(kMaxCoarseMeshes) + " coarse meshes");
+  std::uint32_t finer = count;
+  for (const CoarseMesh& coarse : levels->coarse) {
+    if (Status status = check_coarse(coarse, finer, *levels, mesh); !status.ok()) return status;
+    finer = coarse.levels;
+  }
+  return {};
+}
+
 std::uint32_t frames_at_once(const EncodeOptions& options) {
   if (options.mode != Mode::kBasis) return options.gop_frames;
   return options.period_frames > 0 ? options.period_frames : effort_of(options.effort).period_frames;
@@ -151,6 +201,10 @@ double shape_cell(const EncodeOptions& options, std::span<const float> first_fra
 
 namespace {
 
+std::size_t coarse_meshes_of(const EncodeOptions& options) {
+  return options.levels ? options.levels->coarse.size() : 0;
+}
+
 /// A basis has at most a component for each coordinate of its frames; two bytes a coefficient are more than
 /// any takes that is worth it.
 void declare_basis(StreamLimits& limits, const EncodeOptions& options) {
@@ -158,6 +212,7 @@ void declare_basis(StreamLimits& limits, const EncodeOptions& options) {
   limits.plan_bytes = static_cast<std::uint32_t>(std::min<std::uint64_t>(
       65536 + std::uint64_t{2} * limits.components * limits.vertices, kMaxChunkLength));
   limits.packet_bytes = std::max(limits.packet_bytes, 256 + 24 * (limits.components + 1));
+  limits.plans = static_cast<std::uint32_t>(coarse_meshes_of(options)) + 1;
   limits.decoder_memory = decoder_memory_with_plans(limits);
 }
 
@@ -172,10 +227,11 @@ StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options) {
   limits.packet_bytes = static_cast<std::uint32_t>(
       std::min<std::uint64_t>(256 + 24 * std::uint64_t{limits.vertices}, kMaxChunkLength));
   limits.meshes = options.max_meshes;
-  limits.mesh_bytes = most_mesh_bytes(limits, needs_shape(options));
+  limits.mesh_bytes = most_mesh_bytes(limits, needs_shape(options), coarse_meshes_of(options));
   limits.decoder_memory =
       needs_shape(options) ? decoder_memory_with_shapes(limits) : decoder_memory_needed(limits);
   if (options.mode == Mode::kBasis) declare_basis(limits, options);
+  if (coarse_meshes_of(options) > 0) limits.decoder_memory = decoder_memory_with_lods(limits);
   return limits;
 }
 

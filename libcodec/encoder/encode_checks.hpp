@@ -6,8 +6,14 @@
 // What an encoder is told is checked before it writes a byte.
 namespace tvg {
 
+/// Whether levels, where they are not null, and the coarser meshes over them are those of such a mesh:
+/// kInvalidArgument.
+Status check_levels(const MeshLevels* levels, const Mesh& mesh);
+
 /// kInvalidArgument, with what would be right, for options out of range and for metadata no stream can hold.
 Status check_options(const EncodeOptions& options);
+/// The same for options of an encoder that is pushed.
+Status check_pushed(const EncodeOptions& options);
 /// Whether meshes are written with a reference shape.
 bool needs_shape(const EncodeOptions& options);
 /// The cells of such a shape, which is made of this frame: a quarter of the lattice's, for a shape that is

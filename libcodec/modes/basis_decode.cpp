@@ -52,10 +52,9 @@ Status BasisDecoder::begin(const GopHeader& header, std::shared_ptr<const BasisP
   row_coder_.emplace(plan_->scales);
   digest_ = Hasher();
   info_ = basis_gop_info(header, plan_->header);
-  const auto vertices = static_cast<std::uint32_t>(plan_->mesh->coded.gates.size());
-  info_.flagged = plan_->flags.empty()
-                      ? vertices
-                      : static_cast<std::uint32_t>(std::count(plan_->flags.begin(), plan_->flags.end(), 1));
+  info_.flagged = 0;
+  plan_->mesh->coded.for_each_drawn(
+      [this](std::uint32_t t, std::uint32_t) { info_.flagged += plan_->flagged(t) ? 1 : 0; });
   return {};
 }
 
@@ -90,7 +89,7 @@ void BasisDecoder::copy_positions(void* positions, std::size_t stride) const {
   constexpr double kLargest = std::numeric_limits<float>::max();
   const double scale = std::ldexp(basis.step, -basis.fraction_bits);
   auto* const target = static_cast<std::byte*>(positions);
-  const std::uint32_t* const order = plan_->mesh->coded.order.data();
+  const std::span<const std::uint32_t> order = plan_->order();
   for_each_block(plan_->planes, sums_, [&](const auto& sums, std::size_t first, std::size_t count) {
     std::array<std::array<float, CoefficientPlanes::kAtOnce>, 3> axes;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -101,7 +100,7 @@ void BasisDecoder::copy_positions(void* positions, std::size_t stride) const {
     }
     // One at a time: a vector would have to wait for what was just written piece by piece.
     for (std::size_t i = 0; i < count; ++i) {
-      std::byte* const vertex = target + stride * order[first + i];
+      std::byte* const vertex = target + stride * (order.empty() ? first + i : order[first + i]);
       for (std::size_t axis = 0; axis < 3; ++axis) std::memcpy(vertex + 4 * axis, &axes[axis][i], 4);
     }
   });
@@ -110,9 +109,10 @@ void BasisDecoder::copy_positions(void* positions, std::size_t stride) const {
 void BasisDecoder::copy_lattice(std::span<std::int32_t> indices) const {
   constexpr double kLargest = std::numeric_limits<std::int32_t>::max();
   const double scale = std::ldexp(1.0, -plan_->header.fraction_bits);
+  const std::span<const std::uint32_t> order = plan_->order();
   for_each_block(plan_->planes, sums_, [&](const auto& sums, std::size_t first, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t at = 3 * std::size_t{plan_->mesh->coded.order[first + i]};
+      const std::size_t at = 3 * (order.empty() ? first + i : order[first + i]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double nearest = std::floor(sums[axis][i] * scale + 0.5);
         indices[at + axis] = static_cast<std::int32_t>(std::clamp(nearest, -kLargest, kLargest));
@@ -122,9 +122,8 @@ void BasisDecoder::copy_lattice(std::span<std::int32_t> indices) const {
 }
 
 void BasisDecoder::copy_flags(std::span<std::uint8_t> flags) const {
-  const CodedMesh& mesh = plan_->mesh->coded;
-  for (std::size_t v = 0; v < mesh.order.size(); ++v)
-    flags[mesh.order[v]] = plan_->flags.empty() ? 1 : plan_->flags[v];
+  plan_->mesh->coded.for_each_drawn(
+      [&](std::uint32_t t, std::uint32_t v) { flags[v] = plan_->flagged(t) ? 1 : 0; });
 }
 
 }  // namespace tvg

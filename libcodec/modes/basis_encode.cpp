@@ -27,10 +27,21 @@ std::vector<float> weights_of(std::span<const std::uint8_t> flags, const GopInpu
   return weights;
 }
 
-std::vector<std::uint8_t> plan_payload(const GopInput& input, const GopMesh& mesh,
-                                       std::span<const std::uint8_t> flags, const FittedBasis& fitted) {
-  const std::vector<std::uint8_t> coded_flags = encode_flags(mesh.coded, flags);
-  ByteWriter fields;
+/// The digests of a basis, [part].
+std::vector<Hasher> digests_of(const CodedMesh& mesh, const CodedCoefficients& coefficients) {
+  std::vector<Hasher> digests(mesh.parts());
+  for (const std::vector<Quad>& group : coefficients.values) {
+    for (std::size_t v = 0; v < group.size(); ++v) {
+      std::size_t part = 0;
+      while (part + 1 < mesh.parts() && mesh.levels[v] >= mesh.level_behind(part)) ++part;
+      digests[part].update(std::span<const std::int32_t>(group[v]));
+    }
+  }
+  return digests;
+}
+
+void write_planes_header(ByteWriter& fields, const GopInput& input, Bytes coded_flags,
+                         const FittedBasis& fitted) {
   BasisHeader header;
   header.components = static_cast<std::uint32_t>(fitted.coefficients.components);
   header.fine_bits = input.lattice.fine_bits;
@@ -41,19 +52,41 @@ std::vector<std::uint8_t> plan_payload(const GopInput& input, const GopMesh& mes
   header.scales = fitted.scales;
   header.flags = coded_flags;
   write_basis_header(fields, header);
-  Hasher digest;
-  for (std::size_t group = 0; group < fitted.coefficients.groups.size(); ++group) {
-    fields.varint(fitted.coefficients.groups[group].size());
-    fields.bytes(fitted.coefficients.groups[group]);
-    for (const Quad& quad : fitted.coefficients.values[group])
-      digest.update(std::span<const std::int32_t>(quad));
+}
+
+/// The chunks of the planes, which are named by `ids`. kLimitExceeded where one is too large.
+Result<std::vector<std::vector<std::uint8_t>>> plan_chunks(const GopInput& input, const GopMesh& mesh,
+                                                           std::span<const std::uint8_t> flags,
+                                                           const FittedBasis& fitted,
+                                                           const StreamLimits& limits, ByteWriter& ids) {
+  std::vector<Hasher> digests = digests_of(mesh.coded, fitted.coefficients);
+  std::vector<std::vector<std::uint8_t>> chunks;
+  std::uint64_t adds_to = 0;
+  for (std::size_t part = 0; part < mesh.coded.parts(); ++part) {
+    ByteWriter fields;
+    if (part == 0) write_planes_header(fields, input, encode_flags(mesh.coded, flags), fitted);
+    for (const auto& group : fitted.coefficients.groups) {
+      fields.varint(group[part].size());
+      fields.bytes(group[part]);
+    }
+    fields.u64(digests[part].value());
+    const std::vector<std::uint8_t> payload =
+        write_plan({.mesh = mesh.coded.id, .adds_to = adds_to, .mode = kModeBasis, .fields = fields.data()});
+    if (payload.size() > limits.plan_bytes)
+      return Error{ErrorCode::kLimitExceeded,
+                   "the planes of a basis are larger than the head declares",
+                   {},
+                   input.first_frame,
+                   "§4.1"};
+    ids.u32(checksum(payload));
+    adds_to = std::uint64_t{checksum(payload)} + 1;
+    chunks.push_back(write_chunk(kPlanChunk, false, payload));
   }
-  fields.u64(digest.value());
-  return write_plan({.mesh = mesh.coded.id, .adds_to = 0, .mode = kModeBasis, .fields = fields.data()});
+  return chunks;
 }
 
 /// A GOP of frames `first` to `first + count - 1` of the period.
-Result<EncodedGop> encode_rows(const GopInput& input, const GopMesh& mesh, std::uint32_t plan_id,
+Result<EncodedGop> encode_rows(const GopInput& input, const GopMesh& mesh, Bytes plan_ids,
                                const FittedBasis& fitted, std::size_t first, std::size_t count,
                                const StreamLimits& limits) {
   const std::size_t values = 3 * fitted.scales.size();
@@ -68,13 +101,12 @@ Result<EncodedGop> encode_rows(const GopInput& input, const GopMesh& mesh, std::
     digest.update(std::span<const std::int32_t>(frame));
     frames.push_back({Predictor::kRows, coder.finish()});
   }
-  ByteWriter ids, fields;
-  ids.u32(plan_id);
+  ByteWriter fields;
   write_channels(fields);
   GopHeader header;
   header.mesh = mesh.coded.id;
   header.first_frame = input.first_frame + first;
-  header.planes = ids.data();
+  header.planes = plan_ids;
   header.mode = kModeBasis;
   header.fields = fields.data();
   return write_gop(header, frames, digest.value(), limits);
@@ -100,8 +132,10 @@ Result<EncodedRun> encode_basis(const GopInput& input, const GopMesh& mesh, cons
   FitTarget target;
   target.squared_error = static_cast<double>(trajectories.weighted.size()) / 12;
   target.largest_error = input.basis.largest_error;
+  const auto part_ends = mesh.coded.part_ends();
   const FittedBasis fitted =
-      fit_basis(trajectories, *mesh.pyramid, flags, input.lattice.shift(), target, input.basis.effort);
+      fit_basis(trajectories, *mesh.pyramid, std::span(part_ends).first(mesh.coded.parts()), flags,
+                input.lattice.shift(), target, input.basis.effort);
   if (target.largest_error && fitted.largest_error > *target.largest_error) {
     return Error{ErrorCode::kInvalidArgument,
                  "no basis has errors as small as that: use mode elp",
@@ -110,18 +144,13 @@ Result<EncodedRun> encode_basis(const GopInput& input, const GopMesh& mesh, cons
   }
   EncodedRun run;
   run.largest_error = fitted.largest_error * input.lattice.step;
-  const std::vector<std::uint8_t> payload = plan_payload(input, mesh, flags, fitted);
-  if (payload.size() > limits.plan_bytes)
-    return Error{ErrorCode::kLimitExceeded,
-                 "the planes of a basis are larger than the head declares",
-                 {},
-                 input.first_frame,
-                 "§4.1"};
-  run.plan = write_chunk(kPlanChunk, false, payload);
-  const std::uint32_t plan_id = checksum(payload);
+  ByteWriter ids;
+  Result<std::vector<std::vector<std::uint8_t>>> plans = plan_chunks(input, mesh, flags, fitted, limits, ids);
+  if (!plans) return plans.error();
+  run.plans = std::move(*plans);
   const std::size_t gop_frames = input.basis.gop_frames;
   for (std::size_t first = 0; first < input.frames.size(); first += gop_frames) {
-    Result<EncodedGop> gop = encode_rows(input, mesh, plan_id, fitted, first,
+    Result<EncodedGop> gop = encode_rows(input, mesh, ids.data(), fitted, first,
                                          std::min(gop_frames, input.frames.size() - first), limits);
     if (!gop) return gop.error();
     run.gops.push_back(std::move(*gop));

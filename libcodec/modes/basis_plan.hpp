@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <tvg/decoder.hpp>
@@ -20,12 +21,28 @@ struct BasisPlan {
   BasisHeader header;                ///< its scales are `scales`, its flags gone
   std::vector<std::uint8_t> scales;  ///< [row]
   std::vector<std::uint8_t> flags;   ///< [traversal index]; empty where there is one lattice
-  CoefficientPlanes planes;
+  CoefficientPlanes planes;          ///< in order of traversal; of a coarser mesh its vertices as they are
+
+  bool flagged(std::size_t t) const { return flags.empty() || flags[t] != 0; }
+  /// [vertex of the planes]: which vertex drawn it is; empty where they are the same.
+  std::span<const std::uint32_t> order() const {
+    return mesh->coded.cut.whole() ? std::span<const std::uint32_t>(mesh->coded.order)
+                                   : std::span<const std::uint32_t>();
+  }
 };
 
-/// Decodes the fields of a plan in mode basis, for this mesh. Of its components only so many are decoded, in
-/// groups of four; the others are left out. kMalformed, kLimitExceeded, kDigestMismatch, kOutOfMemory.
-Result<BasisPlan> decode_basis_plan(Bytes fields, std::shared_ptr<const GopMesh> mesh,
+/// The fields of a chunk of planes, where others add to it that are wanted too; or, of the last that is
+/// wanted, the basis that all of them are (format-spec §7.8.1).
+struct PlanPart {
+  std::shared_ptr<const BasisPlan> plan;
+  std::vector<std::uint8_t> fields;
+  std::shared_ptr<const PlanPart> before;  ///< what it adds to
+};
+
+/// Decodes a plan in mode basis from the fields of its parts, as many as this mesh, which it is for, wants as
+/// it is drawn. Of its components only so many are decoded, in groups of four; the others are left out.
+/// kMalformed, kLimitExceeded, kDigestMismatch, kOutOfMemory.
+Result<BasisPlan> decode_basis_plan(std::span<const Bytes> parts, std::shared_ptr<const GopMesh> mesh,
                                     const StreamLimits& limits, std::uint32_t most_components);
 
 /// What headers say of a GOP in mode basis; all vertices count as flagged.

@@ -29,14 +29,15 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const GopMesh>
   channels_ = elp.channels;
   lattice_ = elp.lattice;
   info_ = gop_info(header, elp);
-  info_.flagged = static_cast<std::uint32_t>(vertex_count);
+  info_.flagged = static_cast<std::uint32_t>(mesh_->coded.drawn().vertex_count);
   flags_.clear();
-  turn_.resize(vertex_count);
-  for (std::uint32_t v = 0; v < vertex_count; ++v) turn_[mesh_->coded.order[v]] = v;
+  turn_.resize(mesh_->coded.drawn().vertex_count);
+  mesh_->coded.for_each_drawn([this](std::uint32_t t, std::uint32_t v) { turn_[v] = t; });
   if (lattice_.hybrid()) {
     flags_.resize(vertex_count);
     if (const Fault fault = decode_flags(elp.flags, mesh_->coded.gates, flags_)) return error_of(fault);
-    info_.flagged = static_cast<std::uint32_t>(std::count(flags_.begin(), flags_.end(), 1));
+    info_.flagged = static_cast<std::uint32_t>(
+        std::count_if(turn_.begin(), turn_.end(), [this](std::uint32_t t) { return flagged(t); }));
   }
   predictors_ = elp.predictors;
   positions_.emplace(Schedule(mesh_->coded.gates), flags_, lattice_);
@@ -87,17 +88,15 @@ void ElpDecoder::copy_positions(void* positions, std::size_t stride) const {
 
 void ElpDecoder::copy_lattice(std::span<std::int32_t> target) const {
   const std::span<const Quad> indices = positions_->indices();
-  for (std::size_t v = 0; v < indices.size(); ++v) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      target[3 * std::size_t{mesh_->coded.order[v]} + axis] =
-          shift_to_coarse(indices[v][axis], flagged(v) ? 0 : lattice_.shift());
-    }
+  for (std::size_t v = 0; v < turn_.size(); ++v) {
+    const std::uint32_t t = turn_[v];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      target[3 * v + axis] = shift_to_coarse(indices[t][axis], flagged(t) ? 0 : lattice_.shift());
   }
 }
 
 void ElpDecoder::copy_flags(std::span<std::uint8_t> target) const {
-  for (std::size_t v = 0; v < mesh_->coded.order.size(); ++v)
-    target[mesh_->coded.order[v]] = flagged(v) ? 1 : 0;
+  for (std::size_t v = 0; v < turn_.size(); ++v) target[v] = flagged(turn_[v]) ? 1 : 0;
 }
 
 }  // namespace tvg

@@ -51,7 +51,7 @@ class ElpDecoder {
   Channels channels_;
   Lattice lattice_;
   std::vector<std::uint8_t> flags_;  ///< [traversal index]; empty when the lattice is not hybrid
-  std::vector<std::uint32_t> turn_;  ///< [vertex of the mesh]: its traversal index
+  std::vector<std::uint32_t> turn_;  ///< [vertex drawn]: its traversal index
   PredictorSet predictors_;
   std::optional<PositionCoder> positions_;  ///< holds the frame
   std::optional<PyramidCoder> along_pyramid_;

@@ -32,8 +32,7 @@ class GopDecoder {
   Status begin(const GopHeader& header, std::shared_ptr<const GopMesh> mesh,
                std::shared_ptr<const BasisPlan> plan) {
     if (header.mode == kModeBasis) {
-      if (plan == nullptr || header.plane_count() != 1)
-        return malformed("§4.5.1", "a GOP in mode basis names other than one plan");
+      if (plan == nullptr) return malformed("§4.5.1", "a GOP in mode basis names other planes than a basis");
       return in<BasisDecoder>().begin(header, std::move(plan));
     }
     if (header.mode == kModeLossless) return in<LosslessDecoder>().begin(header, std::move(mesh));

@@ -12,7 +12,7 @@ namespace tvg {
 
 /// The chunks of a run of frames that are encoded together.
 struct EncodedRun {
-  std::vector<std::uint8_t> plan;  ///< what the GOPs share; empty where that is nothing
+  std::vector<std::vector<std::uint8_t>> plans;  ///< what the GOPs share, if anything
   std::vector<EncodedGop> gops;
   double largest_error = 0;  ///< in mode basis: of a coordinate, in the mesh's units
 };

@@ -18,9 +18,10 @@ struct GopMesh {
   ReferenceShape shape;            ///< which the pyramid is made of; empty where there is none
 };
 
-/// Decodes a mesh from the sections of its chunk (format-spec §4.3). `limits` are the stream's:
-/// kLimitExceeded where the mesh has a reference shape and the memory that is declared does not allow for
-/// that (§8.2).
-Result<GopMesh> decode_gop_mesh(const MeshLayout& layout, std::uint32_t id, const StreamLimits& limits);
+/// Decodes a mesh from the sections of its chunk (format-spec §4.3), to be drawn as its coarser mesh of
+/// number `lod`, as decode_levels_of_mesh() has it. `limits` are the stream's: kLimitExceeded where the mesh
+/// has a reference shape or coarser meshes and the memory that is declared does not allow for that (§8.2).
+Result<GopMesh> decode_gop_mesh(const MeshLayout& layout, std::uint32_t id, const StreamLimits& limits,
+                                std::uint32_t lod = 0);
 
 }  // namespace tvg

@@ -57,8 +57,8 @@ Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> f
   shape.neighbours = neighbours;
   const Result<std::vector<Face>> faces = faces_by_traversal(encoded.coded);
   if (!faces) return faces.error();
-  Result<Pyramid> pyramid =
-      build_pyramid(*faces, encoded.coded.mesh.vertex_count, shape.indices, shape.neighbours);
+  Result<Pyramid> pyramid = build_pyramid(*faces, encoded.coded.mesh.vertex_count, shape.indices,
+                                          shape.neighbours, encoded.coded.levels);
   if (!pyramid) return pyramid.error();
   EncodedGopMesh result;
   result.payload = mesh_payload(encoded, encode_reference_shape(shape, *faces));

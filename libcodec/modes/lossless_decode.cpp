@@ -25,7 +25,7 @@ Status LosslessDecoder::begin(const GopHeader& header, std::shared_ptr<const Gop
   mesh_ = std::move(mesh);
   channels_ = lossless.channels;
   info_ = lossless_gop_info(header);
-  info_.flagged = static_cast<std::uint32_t>(vertex_count);
+  info_.flagged = mesh_->coded.drawn().vertex_count;
   values_.assign(vertex_count, Reals{});
   along_pyramid_.emplace(*mesh_->pyramid, mesh_->shape, lossless.line.line());
   digest_ = Hasher();
@@ -53,22 +53,22 @@ Status LosslessDecoder::check_digest(Bytes packet) const {
 
 void LosslessDecoder::copy_positions(void* positions, std::size_t stride) const {
   auto* const target = static_cast<std::byte*>(positions);
-  for (std::size_t v = 0; v < values_.size(); ++v) {
+  mesh_->coded.for_each_drawn([&](std::uint32_t t, std::uint32_t v) {
     std::array<std::uint32_t, 3> bits;
-    for (std::size_t axis = 0; axis < 3; ++axis) bits[axis] = float_of_value(values_[v][axis]);
-    std::memcpy(target + stride * mesh_->coded.order[v], bits.data(), sizeof bits);
-  }
+    for (std::size_t axis = 0; axis < 3; ++axis) bits[axis] = float_of_value(values_[t][axis]);
+    std::memcpy(target + stride * v, bits.data(), sizeof bits);
+  });
 }
 
 void LosslessDecoder::copy_lattice(std::span<std::int32_t> numbers) const {
-  for (std::size_t v = 0; v < values_.size(); ++v) {
+  mesh_->coded.for_each_drawn([&](std::uint32_t t, std::uint32_t v) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      numbers[3 * std::size_t{mesh_->coded.order[v]} + axis] = ordered(float_of_value(values_[v][axis]));
-  }
+      numbers[3 * std::size_t{v} + axis] = ordered(float_of_value(values_[t][axis]));
+  });
 }
 
 void LosslessDecoder::copy_flags(std::span<std::uint8_t> flags) const {
-  std::fill_n(flags.begin(), values_.size(), std::uint8_t{1});
+  std::fill_n(flags.begin(), info_.flagged, std::uint8_t{1});
 }
 
 }  // namespace tvg

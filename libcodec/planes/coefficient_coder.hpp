@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tvg {
@@ -42,11 +43,13 @@ class CoefficientCoder {
   static constexpr std::size_t kPlanes = 4;  ///< of a group
   /// What a coder allocates, all of it when it is made: for each vertex, and beside that.
   static constexpr std::size_t kBytesPerVertex = 2 * sizeof(ShortQuad) + sizeof(std::uint16_t);
-  static constexpr std::size_t kMostOtherBytes = MagnitudeModels::bytes() + 256 * sizeof(Quad);
+  static constexpr std::size_t most_bytes(std::size_t parts) { return parts * kBytesPerPart; }
 
   /// What is referred to must outlive the coder; `flags` are [vertex], empty where there is one lattice;
-  /// `nested` are the bits between the two.
-  CoefficientCoder(const Pyramid& pyramid, std::span<const std::uint8_t> flags, int nested)
+  /// `nested` are the bits between the two. The vertices are coded in parts, of which each has streams of its
+  /// own: `ends` are the turns that they end before, each the first of its level; without any there is one.
+  CoefficientCoder(const Pyramid& pyramid, std::span<const std::uint8_t> flags, int nested,
+                   std::span<const std::size_t> ends = {})
       : pyramid_(&pyramid),
         flags_(flags),
         nested_(nested),
@@ -54,32 +57,61 @@ class CoefficientCoder {
         shares_(pyramid.order.size()),
         activities_(pyramid.order.size(), kWhole) {
     usual_.fill(kFirstUsual);
+    parts_.resize(std::max<std::size_t>(ends.size(), 1));
+    for (std::size_t part = 0; part < parts_.size(); ++part)
+      parts_[part].end = ends.empty() ? pyramid.order.size() : ends[part];
   }
 
-  /// Codes the next group of `count` planes, 1 to 4, whose coefficients on the fine lattice are `planes`,
-  /// [vertex]; they are filled in, by a decoder and by an encoder alike. `choose(models, forecast)` tells an
-  /// encoder's residual. Returns false when a coefficient is out of range.
+  /// Codes the next group of `count` planes where there is one part.
   template <class Coder, class Choose>
   bool code(Coder& coder, std::span<Quad> planes, std::size_t count, const Choose& choose) {
-    bool inside = true;
+    begin_group(count);
+    const bool inside = code_part(0, coder, planes, choose);
+    end_group();
+    return inside;
+  }
+
+  /// The next group has `count` planes, 1 to 4. All its parts follow, then end_group().
+  void begin_group(std::size_t count) {
+    count_ = count;
     all_small_ = true;
-    for (std::size_t turn = 0; turn < pyramid_->order.size(); ++turn) {
+    turn_ = 0;
+  }
+  /// Codes the next part of a group, whose coefficients on the fine lattice are `planes`, [vertex]; they are
+  /// filled in, by a decoder and by an encoder alike. `choose(models, stirs, forecast)` tells an encoder's
+  /// residual. Returns false when a coefficient is out of range.
+  template <class Coder, class Choose>
+  bool code_part(std::size_t part, Coder& coder, std::span<Quad> planes, const Choose& choose) {
+    bool inside = true;
+    Part& models = parts_[part];
+    for (std::size_t turn = std::exchange(turn_, models.end); turn < models.end; ++turn) {
       const std::size_t level = pyramid_->level[turn];
-      if (turn == 0 || level != pyramid_->level[turn - 1]) begin_level(turn, count);
-      if (turns_at_level_ % kTurnsPerInverse == 0) take_inverses(count);
-      inside &= code_vertex(coder, planes, turn, count, choose);
+      if (turn == 0 || level != pyramid_->level[turn - 1]) begin_level(turn, count_);
+      if (turns_at_level_ % kTurnsPerInverse == 0) take_inverses(count_);
+      inside &= code_vertex(coder, models, planes, turn, count_, choose);
       ++turns_at_level_;
       if constexpr (Coder::kDecoding) {
         if (turn % 256 == 255 && coder.overrun()) return false;
       }
     }
-    end_level(count);
+    return inside;
+  }
+  /// Parts at the end may be left out.
+  void end_group() {
+    end_level(count_);
     usual_ = next_usual_;
     first_group_ = false;
-    return inside;
   }
 
  private:
+  /// What a part has by itself.
+  struct Part {
+    std::size_t end = 0;
+    std::array<AdaptiveBit, 3 * MagnitudeModels::kLevels> stirs;
+    MagnitudeModels models;
+  };
+  static constexpr std::size_t kBytesPerPart = sizeof(Part) + MagnitudeModels::bytes() + 256;
+
   static constexpr std::int32_t kWhole = 256;
   static constexpr std::int32_t kMostShare = 20 * kWhole;
   static constexpr std::int32_t kMostActivity = 6 * kWhole;
@@ -178,7 +210,7 @@ class CoefficientCoder {
 
   // format-spec §7.8.2
   template <class Coder, class Choose>
-  bool code_vertex(Coder& coder, std::span<Quad> planes, std::size_t turn, std::size_t count,
+  bool code_vertex(Coder& coder, Part& part, std::span<Quad> planes, std::size_t turn, std::size_t count,
                    const Choose& choose) {
     const std::uint32_t v = pyramid_->order[turn];
     const std::span<const std::uint32_t> around =
@@ -194,8 +226,9 @@ class CoefficientCoder {
         Lanes::all(26) + ((beside * Lanes::all(102) + Lanes::all(77 * own + 51 * active_beside)) >> 8);
     const Lanes size = (usual * share) >> 8;
     const std::int32_t rounded_much = -sum_of(abs(lost) > kRoundedMuch);
-    AdaptiveBit& stirs = stirs_[3 * MagnitudeModels::level_of(static_cast<std::uint32_t>(sum_of(size >> 2))) +
-                                static_cast<std::size_t>(std::min(rounded_much, 2))];
+    AdaptiveBit& stirs =
+        part.stirs[3 * MagnitudeModels::level_of(static_cast<std::uint32_t>(sum_of(size >> 2))) +
+                   static_cast<std::size_t>(std::min(rounded_much, 2))];
     Lanes index = rounded;
     const Lanes before = (usual * Lanes::all((154 * own + 102 * active_beside) >> 8)) >> 8;
     const CoefficientForecast forecast{v,
@@ -207,11 +240,11 @@ class CoefficientCoder {
                                        (((usual >> 2) * beside) >> 6).quad(),
                                        before.quad(),
                                        first_group_};
-    const Quad wanted = choose(models_, stirs, forecast);
+    const Quad wanted = choose(part.models, stirs, forecast);
     if (coder.code(stirs, wanted != Quad{})) {
       Quad residuals{};
       for (std::size_t j = 0; j < count; ++j)
-        residuals[j] = models_.code(coder, forecast.expected(j), wanted[j]);
+        residuals[j] = part.models.code(coder, forecast.expected(j), wanted[j]);
       index = index + Lanes(residuals);
     }
     const Lanes most = Lanes::all(kMostCoefficient >> shift);
@@ -265,8 +298,8 @@ class CoefficientCoder {
   std::size_t level_ = 0, turns_at_level_ = 0;
   Lanes running_, inverse_;  ///< of the level: sizes in 1/4096 of a cell, 2^24 over them
   Lanes least_, most_size_;  ///< 0 in lanes without a plane
-  std::array<AdaptiveBit, 3 * MagnitudeModels::kLevels> stirs_;
-  MagnitudeModels models_;
+  std::vector<Part> parts_;
+  std::size_t count_ = 0, turn_ = 0;  ///< of the group: its planes, and the turn that is next
 };
 
 }  // namespace tvg

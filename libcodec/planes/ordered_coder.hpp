@@ -51,7 +51,7 @@ class OrderedCoder {
 
  private:
   using Logs = std::array<std::int32_t, 3>;
-  static constexpr std::size_t kMostLevels = 64;  ///< more than a pyramid has
+  static constexpr std::size_t kMostLevels = 128;  ///< more than a pyramid has
   /// A size that counts as none: four octaves below a step.
   static constexpr std::int32_t kLeastSize = -64;
   /// How much the size at the j-th neighbour counts, and 2^16 over the sum of the first j.

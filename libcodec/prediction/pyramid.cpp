@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+#include <tvg/levels.hpp>
+
 namespace tvg {
 
 namespace {
@@ -15,22 +17,26 @@ namespace {
 /// Builds a pyramid from its finest level to its coarsest, the last turns first.
 class Builder {
  public:
-  Builder(std::span<const ShapePoint> shape, Pyramid& pyramid) : shape_(shape), pyramid_(pyramid) {}
+  Builder(std::span<const ShapePoint> shape, std::span<const std::uint8_t> given, Pyramid& pyramid)
+      : shape_(shape), given_(given), pyramid_(pyramid) {}
 
   [[nodiscard]] bool run(std::span<const Face> faces) {
     if (!prepare() || !edges_of(faces, shape_, graph_)) return false;
-    std::size_t removals = 0;
-    while (removals < kMostRemovals && graph_.size() > kBase) {
-      if (!remove_level()) return false;
-      starts_[removals++] = graph_.size();
+    const std::uint8_t highest = given_.empty() ? 0 : *std::max_element(given_.begin(), given_.end());
+    for (std::uint8_t level = highest; level > 0; --level) {
+      if (!colour_given(level) || !remove_coloured()) return false;
+    }
+    const std::size_t derived_after = removals_;
+    while (removals_ - derived_after < kMostRemovals && graph_.size() > kBase) {
+      if (!colour_all() || !remove_coloured()) return false;
     }
     if (!place_base()) return false;
     std::size_t turn = 0;
-    for (std::size_t level = 0; level <= removals; ++level) {
-      const std::size_t end = level == removals ? shape_.size() : starts_[removals - 1 - level];
+    for (std::size_t level = 0; level <= removals_; ++level) {
+      const std::size_t end = level == removals_ ? shape_.size() : starts_[removals_ - 1 - level];
       for (; turn < end; ++turn) pyramid_.level[turn] = static_cast<std::uint8_t>(level);
     }
-    pyramid_.levels = shape_.empty() ? 0 : static_cast<std::uint32_t>(removals) + 1;
+    pyramid_.levels = shape_.empty() ? 0 : static_cast<std::uint32_t>(removals_) + 1;
     return true;
   }
 
@@ -56,10 +62,26 @@ class Builder {
     return true;
   }
 
-  /// Gives the last turns to what can be spared of the graph, and leaves the rest of it.
+  /// What can be spared of the graph has colours from 1 on.
   // format-spec §5.4.2
-  bool remove_level() {
-    if (!colour(graph_, by_rank_, colours_)) return false;
+  bool colour_all() { return colour(graph_, by_rank_, colours_); }
+
+  /// What is of the level given has colours from 1 on, and the rest 0.
+  // format-spec §5.4.2
+  bool colour_given(std::uint8_t level) {
+    std::vector<std::uint32_t> members;
+    if (!try_reserve(members, by_rank_.size())) return false;
+    for (const std::uint32_t p : by_rank_) {
+      if (given_[graph_.vertex[p]] == level) members.push_back(p);
+    }
+    if (!colour(graph_, members, colours_)) return false;
+    for (std::uint32_t& c : colours_) c = c == kNoColour ? 0 : c + 1;
+    return true;
+  }
+
+  /// Gives the last turns to what has a colour above 0, and leaves the rest of the graph.
+  // format-spec §5.4.2
+  bool remove_coloured() {
     const std::uint32_t most = *std::max_element(colours_.begin(), colours_.end());
     // Those of colour 1 come last: most have it, and so most have the others around them to be predicted
     // from.
@@ -82,6 +104,7 @@ class Builder {
     }
     by_rank_.resize(kept);
     graph_ = std::move(next);
+    starts_[removals_++] = graph_.size();
     return true;
   }
 
@@ -110,23 +133,26 @@ class Builder {
   }
 
   std::span<const ShapePoint> shape_;
+  std::span<const std::uint8_t> given_;
   Pyramid& pyramid_;
   SurfaceGraph graph_;
   NearestSearch search_;
   std::vector<std::uint32_t> by_rank_;  ///< places of the graph
   std::vector<std::uint32_t> colours_;  ///< [place] colour, then time: 0 stays, the rest as their turns come
   std::vector<std::uint32_t> places_;
-  std::array<std::size_t, kMostRemovals> starts_{};  ///< [removal] the first turn it gave
+  std::array<std::size_t, kMostRemovals + kMaxVertexLevels> starts_{};  ///< [removal] the first turn it gave
+  std::size_t removals_ = 0;
 };
 
 }  // namespace
 
 // format-spec §5.4
 Result<Pyramid> build_pyramid(std::span<const Face> faces, std::uint32_t vertex_count,
-                              std::span<const ShapePoint> shape, std::uint32_t neighbours) {
+                              std::span<const ShapePoint> shape, std::uint32_t neighbours,
+                              std::span<const std::uint8_t> given) {
   Pyramid pyramid;
   pyramid.neighbours = neighbours;
-  Builder builder(shape.first(vertex_count), pyramid);
+  Builder builder(shape.first(vertex_count), given, pyramid);
   if (!builder.run(faces)) return out_of_memory();
   return pyramid;
 }

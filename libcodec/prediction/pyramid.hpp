@@ -30,10 +30,13 @@ struct Pyramid {
 };
 
 /// The pyramid of a mesh (format-spec §5.4): the same on every machine. `faces` holds valid indices; `shape`
-/// is a position for each of the `vertex_count` vertices; `neighbours` is within its limits. Linear in the
-/// size of the mesh but for sorting, whatever the mesh; beside the result, at most 96 bytes for each vertex
-/// and 96 for each face. The only error is kOutOfMemory.
+/// is a position for each of the `vertex_count` vertices; `neighbours` is within its limits. `given`,
+/// [vertex] or empty, are levels below kMaxVertexLevels, of which none up to the highest is left out:
+/// vertices of a higher one have later turns than those of a lower one. Linear in the size of the mesh, for
+/// each level that is given too, but for sorting, whatever the mesh; beside the result, at most 96 bytes for
+/// each vertex and 96 for each face. The only error is kOutOfMemory.
 Result<Pyramid> build_pyramid(std::span<const Face> faces, std::uint32_t vertex_count,
-                              std::span<const std::array<std::int32_t, 3>> shape, std::uint32_t neighbours);
+                              std::span<const std::array<std::int32_t, 3>> shape, std::uint32_t neighbours,
+                              std::span<const std::uint8_t> given = {});
 
 }  // namespace tvg

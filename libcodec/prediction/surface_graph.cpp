@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace tvg {
 
@@ -60,6 +61,41 @@ struct Clusters {
   }
 };
 
+/// Draws the places on that have no link to one of colour 0, for which `place` is kLongest: one after the
+/// other, the nearest along links first, to what its link leads to is drawn to.
+bool draw_further(const SurfaceGraph& graph, std::vector<std::uint32_t>& place, Clusters& clusters) {
+  constexpr std::uint32_t kNone = kLongest;
+  std::size_t ways = 0;
+  for (std::uint32_t p = 0; p < graph.size(); ++p) ways += place[p] == kNone ? graph.links_of(p).size() : 0;
+  if (ways == 0) return true;
+  std::vector<Link> queue;  // a heap: way and place, the least first
+  if (!try_reserve(queue, ways)) return false;
+  std::vector<std::uint32_t>& leads_to = clusters.members;  // [place], until it is drawn
+  std::fill(leads_to.begin(), leads_to.end(), kNone);
+  const auto reach_from = [&](std::uint32_t from) {
+    for (const Link link : graph.links_of(from)) {
+      const std::uint32_t to = end_of(link), way = add_lengths(clusters.way[from], length_of(link));
+      if (place[to] != kNone || (leads_to[to] != kNone && clusters.way[to] <= way)) continue;
+      leads_to[to] = place[from];
+      clusters.way[to] = way;
+      queue.push_back(make_link(way, to));
+      std::push_heap(queue.begin(), queue.end(), std::greater<>());
+    }
+  };
+  for (std::uint32_t p = 0; p < graph.size(); ++p) {
+    if (place[p] != kNone) reach_from(p);
+  }
+  while (!queue.empty()) {
+    const std::uint32_t nearest = end_of(queue.front());
+    std::pop_heap(queue.begin(), queue.end(), std::greater<>());
+    queue.pop_back();
+    if (place[nearest] != kNone) continue;  // by a shorter way
+    place[nearest] = leads_to[nearest];
+    reach_from(nearest);
+  }
+  return true;
+}
+
 /// Draws each place to the nearest of colour 0.
 bool draw(const SurfaceGraph& graph, std::span<const std::uint32_t> colours,
           std::vector<std::uint32_t>& place, Clusters& clusters) {
@@ -73,16 +109,16 @@ bool draw(const SurfaceGraph& graph, std::span<const std::uint32_t> colours,
   }
   if (!try_resize(clusters.end, kept)) return false;
   for (std::uint32_t p = 0; p < size; ++p) {
-    if (colours[p] != 0) {
-      // There is one, or this would have taken colour 0 itself; links ascend, so the first is the nearest.
-      const std::span<const Link> links = graph.links_of(p);
-      const Link nearest =
-          *std::find_if(links.begin(), links.end(), [colours](Link l) { return colours[end_of(l)] == 0; });
-      place[p] = place[end_of(nearest)];
-      clusters.way[p] = length_of(nearest);
-    }
-    ++clusters.end[place[p]];
+    if (colours[p] == 0) continue;
+    // Links ascend, so the first is the nearest.
+    const std::span<const Link> links = graph.links_of(p);
+    const auto nearest =
+        std::find_if(links.begin(), links.end(), [colours](Link l) { return colours[end_of(l)] == 0; });
+    place[p] = nearest == links.end() ? kLongest : place[end_of(*nearest)];
+    clusters.way[p] = nearest == links.end() ? 0 : length_of(*nearest);
   }
+  if (!draw_further(graph, place, clusters)) return false;
+  for (const std::uint32_t to : place) ++clusters.end[to];
   sum_up(clusters.end);
   for (std::uint32_t p = 0; p < size; ++p) clusters.members[clusters.end[place[p]]++] = p;
   return true;
@@ -130,7 +166,7 @@ bool edges_of(std::span<const Face> faces, std::span<const ShapePoint> shape, Su
 
 bool colour(const SurfaceGraph& graph, std::span<const std::uint32_t> order,
             std::vector<std::uint32_t>& colours) {
-  constexpr std::uint32_t kNone = kLongest;
+  constexpr std::uint32_t kNone = kNoColour;
   colours.clear();
   std::vector<std::uint32_t> taken_for;  // [colour]: the place that has a neighbour of it
   if (!try_resize(colours, graph.size()) || !try_resize(taken_for, std::size_t{graph.size()} + 1))

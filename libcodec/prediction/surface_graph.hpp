@@ -58,16 +58,18 @@ struct SurfaceGraph {
 [[nodiscard]] bool edges_of(std::span<const Face> faces, std::span<const ShapePoint> shape,
                             SurfaceGraph& graph);
 
+inline constexpr std::uint32_t kNoColour = ~std::uint32_t{0};
+
 /// First-fit colours, [place]: going through the places in the order given, those of more than 32 links
-/// before all others, each takes the least colour that none of its neighbours has taken. False without
-/// memory.
+/// before all others, each takes the least colour that none of its neighbours has taken; places that are not
+/// in the order have kNoColour. False without memory.
 [[nodiscard]] bool colour(const SurfaceGraph& graph, std::span<const std::uint32_t> order,
                           std::vector<std::uint32_t>& colours);
 
-/// The graph of the places of colour 0, each drawn together with the places whose nearest neighbour of that
-/// colour it is: a link of the graph links the two they are drawn to, and is longer by the ways to there; of
-/// several the shortest stays. `place` is, for each old place, the new one it is drawn to. False without
-/// memory.
+/// The graph of the places of colour 0, of which there are some, each drawn together with the places whose
+/// nearest neighbour of that colour it is, or that are nearest to such along links: a link of the graph links
+/// the two they are drawn to, and is longer by the ways to there; of several the shortest stays. `place` is,
+/// for each old place, the new one it is drawn to. False without memory.
 [[nodiscard]] bool contract(const SurfaceGraph& graph, std::span<const std::uint32_t> colours,
                             SurfaceGraph& next, std::vector<std::uint32_t>& place);
 

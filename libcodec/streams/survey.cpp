@@ -1,5 +1,7 @@
 #include "base/stream_error.hpp"
+#include "connectivity/mesh_coder.hpp"
 #include "container/chunk_reader.hpp"
+#include "container/stream_writer.hpp"
 #include "modes/basis_plan.hpp"
 #include "modes/elp_header.hpp"
 #include "modes/lossless_header.hpp"
@@ -73,15 +75,9 @@ class Surveyor {
       case ChunkReader::Event::kMetadata:
         result_.metadata = reader_.take_metadata();
         break;
-      case ChunkReader::Event::kMesh: {
-        const MeshLayout& mesh = reader_.mesh();
-        result_.meshes.push_back(
-            {mesh.vertex_count,
-             mesh.face_count,
-             {mesh.connectivity.size(), mesh.order.size(), mesh.shape.size(), mesh.keeps_order}});
-        mesh_ids_.push_back(reader_.mesh_id());
+      case ChunkReader::Event::kMesh:
+        take_mesh();
         break;
-      }
       case ChunkReader::Event::kPlan:
         take_plan();
         break;
@@ -101,6 +97,22 @@ class Surveyor {
         break;
       default:
         break;
+    }
+  }
+
+  void take_mesh() {
+    const MeshLayout& mesh = reader_.mesh();
+    SurveyedMesh& surveyed = result_.meshes.emplace_back();
+    surveyed.vertices = mesh.vertex_count;
+    surveyed.faces = mesh.face_count;
+    surveyed.parts = sizes_of(mesh);
+    mesh_ids_.push_back(reader_.mesh_id());
+    CoarseLayouts lods;
+    if (mesh.lods.empty()) return;
+    if (const Fault fault = read_coarse_layouts(mesh.lods, mesh.face_count, lods)) {
+      find(error_of(fault));
+    } else if (!list_lods(lods, surveyed.parts.lods)) {
+      throw std::bad_alloc();
     }
   }
 
@@ -124,15 +136,21 @@ class Surveyor {
 
   /// Keeps what the plan says of the GOPs that name it.
   void take_plan() {
+    const ChunkWindow::Entry& entry = *reader_.plans().find(reader_.plan_id());
     BasisHeader basis;
     ByteReader fields(reader_.plan().fields);
-    if (const Fault fault = read_basis_header(fields, result_.head.limits, basis)) {
+    if (entry.part > 0) {
+      const auto first = header_of(static_cast<std::uint32_t>(entry.adds_to - 1));
+      if (first == nullptr) return;  // gone as this came: no GOP can name both
+      basis = *first;
+    } else if (const Fault fault = read_basis_header(fields, result_.head.limits, basis)) {
       reader_.reject(fault.code);
       find(error_of(fault));
       return;
     }
     basis.scales = basis.flags = {};
-    result_.plans.push_back({.components = basis.components, .bytes = reader_.chunk().total_size()});
+    result_.plans.push_back(
+        {.components = basis.components, .bytes = reader_.chunk().total_size(), .part = entry.part});
     plan_ids_.push_back(reader_.plan_id());
     reader_.keep(std::make_shared<const BasisHeader>(basis));
   }
@@ -140,20 +158,27 @@ class Surveyor {
   /// GOPs of a basis may lie apart where the chunk of its planes came again: each chunk has its own.
   void note_plan_use(const GopHeader& header, const GopInfo& gop) {
     if (gop.mode != Mode::kBasis) return;
-    const std::uint32_t id = ByteReader(header.planes).u32();
-    const auto found = std::find(plan_ids_.rbegin(), plan_ids_.rend(), id);
-    if (found == plan_ids_.rend()) return;
-    SurveyedPlan& plan = result_.plans[static_cast<std::size_t>(plan_ids_.rend() - found - 1)];
-    if (plan.frame_count == 0) plan.first_frame = gop.first_frame;
-    plan.frame_count += gop.frame_count;
+    for (const std::uint32_t id : plane_ids(header)) {
+      const auto found = std::find(plan_ids_.rbegin(), plan_ids_.rend(), id);
+      if (found == plan_ids_.rend()) continue;
+      SurveyedPlan& plan = result_.plans[static_cast<std::size_t>(plan_ids_.rend() - found - 1)];
+      if (plan.frame_count == 0) plan.first_frame = gop.first_frame;
+      plan.frame_count += gop.frame_count;
+    }
+  }
+
+  /// What the plan of this name says; null where nothing is known of it.
+  std::shared_ptr<const BasisHeader> header_of(std::uint32_t plan) const {
+    const ChunkWindow::Entry* const entry = reader_.plans().find(plan);
+    return entry == nullptr ? nullptr : std::static_pointer_cast<const BasisHeader>(entry->content);
   }
 
   Result<GopInfo> info_of(const GopHeader& header) const {
     if (header.mode == kModeBasis) {
-      const auto* const plan =
-          header.plane_count() == 1 ? reader_.plans().find(ByteReader(header.planes).u32()) : nullptr;
-      if (plan == nullptr) return malformed("§4.5.1", "a GOP in mode basis names other than one plan");
-      return basis_gop_info(header, *std::static_pointer_cast<const BasisHeader>(plan->content));
+      if (header.plane_count() == 0) return malformed("§7.8.1", "a GOP in mode basis names no planes");
+      const auto basis = header_of(ByteReader(header.planes).u32());
+      if (basis == nullptr) return malformed("§4.5.1", "a GOP in mode basis names other planes than a basis");
+      return basis_gop_info(header, *basis);
     }
     if (header.mode == kModeLossless) {
       LosslessHeader lossless;

@@ -39,6 +39,8 @@ class ShownFrames {
   virtual bool keeps_vertex_order() const { return true; }
   /// The joints that move the mesh; empty where nobody knows of any. Valid as long as the frames.
   virtual const Skeleton& skeleton() const = 0;
+  /// What is to be told of the frames given out so far; empty where that is nothing.
+  virtual std::string note() const { return {}; }
   /// Valid as soon as the frames are open.
   virtual Metadata metadata() const = 0;
 };
@@ -50,6 +52,7 @@ struct ShownFramesSpec {
   bool whole_gops = false;             ///< give out all frames of the GOPs that the range touches
   bool conceal = false;                ///< hold the last good frame where frames are lost, and say so
   cli::SourceOpener open_source = {};  ///< opens inputs that are no .tvg
+  std::uint32_t lod = 0;               ///< of a .tvg, as Decoder::use_lod() has it
   std::shared_ptr<const JointTracks> joints = {};  ///< of a .tvg, frames by number; null for none
 };
 

@@ -46,11 +46,13 @@ class StreamFrames final : public ShownFrames {
   std::optional<std::uint64_t> total() const override { return total_; }
   bool keeps_vertex_order() const override { return reader_->decoder().mesh_info().keeps_vertex_order; }
   const Skeleton& skeleton() const override { return spec_.joints ? spec_.joints->skeleton : none_; }
+  std::string note() const override { return reader_->lod_note(); }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
 
  private:
   void open() {
     reader_ = std::make_unique<cli::StreamReader>(spec_.inputs.front());
+    reader_->use_lod(spec_.lod);
     loaded_ = ended_ = false;
     held_ = {};
     mesh_.reset();

@@ -13,9 +13,17 @@
 
 namespace tvg::player {
 
-std::unique_ptr<StreamInput> open_stream_input(const std::string& location) {
+namespace {
+
+constexpr std::uint64_t kLittleAhead = std::uint64_t{1} << 18;
+
+}  // namespace
+
+std::unique_ptr<StreamInput> open_stream_input(const std::string& location, bool leaves_out) {
   if (location.starts_with("http://") || location.starts_with("https://")) {
-    return std::make_unique<HttpInput>(location);
+    HttpOptions options;
+    if (leaves_out) options.read_ahead = kLittleAhead;
+    return std::make_unique<HttpInput>(location, options);
   }
   const bool standard_input = location == "-";
   const std::string name = standard_input ? "standard input" : location;

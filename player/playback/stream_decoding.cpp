@@ -136,6 +136,7 @@ void StreamLoader::go_to(std::uint64_t frame) {
   if (!decoder_ || failed_) {
     decoder_ = std::make_unique<Decoder>(options_.limits);
     decoder_->measure_bits(options_.measure_bits);
+    decoder_->use_lod(options_.lod);
     if (!entries_.empty()) decoder_->set_index(entries_);
     offset_ = 0;
     has_head_ = false;
@@ -214,6 +215,8 @@ void StreamLoader::feed() {
   }
   decoder_->push(std::span(piece_).first(*count));
   offset_ += *count;
+  const std::lock_guard lock(mutex_);
+  state_.bytes_read += *count;
 }
 
 /// The frames of a live stream that is opened again follow those that came before.
@@ -231,6 +234,8 @@ void StreamLoader::begin_mesh() {
   const std::lock_guard lock(mutex_);
   if (state_.mesh && *state_.mesh == decoder_->mesh()) return;
   state_.mesh = std::make_shared<const Mesh>(decoder_->mesh());
+  state_.lod = decoder_->mesh_info().lod;
+  state_.lods = decoder_->lod_count();
   fit_ring(state_.mesh->vertex_count);
 }
 

@@ -59,7 +59,8 @@ class StreamInput {
 };
 
 /// The input that `location` names: a path, "-" for standard input, or an http or https URL. Throws ToolError
-/// (kIo) where a file cannot be opened; failures of the network are those of read().
-std::unique_ptr<StreamInput> open_stream_input(const std::string& location);
+/// (kIo) where a file cannot be opened; failures of the network are those of read(). Where bytes in between
+/// may be left out, little is fetched ahead.
+std::unique_ptr<StreamInput> open_stream_input(const std::string& location, bool leaves_out = false);
 
 }  // namespace tvg::player

@@ -15,7 +15,10 @@ constexpr std::uint64_t kMaxIndexBytes = std::uint64_t{1} << 26;
 }  // namespace
 
 StreamLoader::StreamLoader(std::unique_ptr<StreamInput> input, const LoaderOptions& options)
-    : options_(options), input_(std::move(input)), ring_(options.ring_frames), piece_(std::size_t{1} << 16) {
+    : options_(options),
+      input_(std::move(input)),
+      ring_(options.ring_frames),
+      piece_(options.lod > 0 ? std::size_t{1} << 12 : std::size_t{1} << 16) {
   index_thread_ = std::thread([this] { load_index(); });
   thread_ = std::thread([this] { run(); });
 }

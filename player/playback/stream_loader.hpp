@@ -24,6 +24,7 @@ struct LoaderOptions {
   std::uint64_t ring_bytes = std::uint64_t{512}
                              << 20;  ///< most bytes of frames held, but never below 2 frames
   bool measure_bits = false;         ///< fill PlayerFrame::bits, at some cost
+  std::uint32_t lod = 0;             ///< which coarser mesh is decoded (Decoder::use_lod()); 0 the whole
 };
 
 /// The frames that are played again and again; the end of the stream where `last` is absent.
@@ -55,6 +56,9 @@ struct LoaderSnapshot {
   std::vector<FrameRun> decoded;   ///< frames in the ring
   std::vector<FrameRun> buffered;  ///< frames whose bytes are on hand
   std::optional<std::uint64_t> stream_bytes;
+  std::uint64_t bytes_read = 0;  ///< by the decoder; what was read twice counts twice
+  std::uint32_t lod = 0;         ///< which of `lods` coarser meshes `mesh` is; 0 the whole
+  std::uint32_t lods = 0;
   InputStatus input;
   double mean_decode_ms = 0;  ///< over the frames decoded lately
   double max_decode_ms = 0;   ///< of all

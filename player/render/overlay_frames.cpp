@@ -20,7 +20,7 @@ std::string scale_note(const OverlayColours& colours, const RenderOptions& optio
 OverlayFrames::OverlayFrames(const RenderOptions& options) : options_(options) {
   const bool cost = options.overlay == Overlay::kCost;
   frames_ = open_frames({options.inputs, options.frames, options.overlay == Overlay::kImportance, cost,
-                         options.conceal, options.open_inputs, options.measure.joints});
+                         options.conceal, options.open_inputs, options.lod, options.measure.joints});
   if (!options.reference.empty()) {
     references_ =
         std::make_shared<ReferenceFrames>(ShownFramesSpec{options.reference, options.frames, false, false,

@@ -163,6 +163,7 @@ class RenderJob {
       fmt::print(stderr, "{} to {}: {} pictures, {}x{}\n", files_.front(), files_.back(), files_.size(),
                  options_.width, options_.height);
     }
+    if (const std::string note = frames_.note(); !note.empty()) fmt::print(stderr, "note: {}\n", note);
   }
 
   const RenderOptions& options_;

@@ -48,6 +48,11 @@ void check_together(const RenderOptions& options, const RenderArguments& argumen
   if (!options.reference.empty() && !options.side_by_side && options.overlay != Overlay::kError) {
     throw cli::ToolError(cli::ExitStatus::kUsage, "--ref: add --overlay error or --side-by-side to show it");
   }
+  if (options.lod > 0 && !options.reference.empty()) {
+    throw cli::ToolError(
+        cli::ExitStatus::kUsage,
+        "--lod: a reference has all vertices and a coarser mesh some of them; leave out --ref");
+  }
   if (options.largest && options.overlay != Overlay::kCost && options.overlay != Overlay::kError) {
     cli::fail_option("--scale", arguments.scale, "only --overlay cost and error have a scale");
   }
@@ -78,6 +83,7 @@ RenderOptions parse_render_arguments(const RenderArguments& arguments) {
   options.labels = !arguments.no_labels;
   options.conceal = arguments.conceal;
   options.quiet = arguments.quiet;
+  options.lod = arguments.lod;
   check_together(options, arguments);
   return options;
 }

@@ -18,6 +18,7 @@ struct RenderArguments : LookArguments {
   std::string scale;
   std::string sheet;
   std::string fps;
+  std::uint32_t lod = 0;
   bool side_by_side = false;
   bool no_labels = false;
   bool conceal = false;
@@ -44,6 +45,7 @@ struct RenderOptions : Look {
   std::optional<double> largest;  ///< value at the upper end of the colours, in the overlay's units
   std::optional<SheetShape> sheet;
   std::optional<std::string> fps;  ///< "30" or "30000/1001"
+  std::uint32_t lod = 0;           ///< of a .tvg: which coarser mesh is drawn; 0 the whole
   bool side_by_side = false;
   bool labels = true;
   bool conceal = false;

@@ -46,6 +46,10 @@ void stream_rows(const PlayerSnapshot& player) {
   if (stream.mesh) {
     row("mesh", fmt::format("{} vertices, {} faces", stream.mesh->vertex_count, stream.mesh->faces.size()));
   }
+  if (stream.lod > 0) {
+    row("lod",
+        fmt::format("{} of {}, {} read", stream.lod, stream.lods, cli::readable_bytes(stream.bytes_read)));
+  }
   const std::string frames = stream.frame_count ? std::to_string(*stream.frame_count)
                                                 : fmt::format("{} so far", stream.known_frames);
   row("frames", fmt::format("{} at {:g} per second", frames, player.rate));

@@ -18,7 +18,7 @@ WindowEvents PlaySession::events() {
 
 void PlaySession::open(const std::string& location) {
   try {
-    use(open_stream_input(location));
+    use(open_stream_input(location, options_.lod > 0));
   } catch (const cli::ToolError& error) {
     notify(error.what());
   }

@@ -60,6 +60,8 @@ std::string PlayFigures::report(const PlayerSnapshot& player, const std::string&
       {"frame_slots", player.stream.frame_slots},
       {"ring_capacity", player.stream.ring_capacity},
       {"bytes_received", player.stream.input.bytes_received},
+      {"bytes_read", player.stream.bytes_read},
+      {"lod", player.stream.lod},
       {"damaged_places", player.stream.damage.size()},
       {"message", player.stream.message},
   };

@@ -17,6 +17,7 @@ struct PlayOptions : Look {
   bool looping = true;
   bool paused = false;
   std::uint64_t start = 0;                                ///< first frame to show
+  std::uint32_t lod = 0;                                  ///< which coarser mesh is played; 0 the whole
   std::uint64_t memory_bytes = std::uint64_t{512} << 20;  ///< of decoded frames
   std::string screenshot;         ///< saves the window as it shows the first frame, and ends
   std::optional<double> seconds;  ///< ends after so long

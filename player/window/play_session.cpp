@@ -45,6 +45,7 @@ void PlaySession::use(std::unique_ptr<StreamInput> input) {
   window_.set_title(name_ + " - tvg");
   PlayerOptions options;
   options.loader.ring_bytes = options_.memory_bytes;
+  options.loader.lod = options_.lod;
   options.playing = !options_.paused && options_.screenshot.empty();
   options.looping = options_.looping;
   options.rate = options_.rate;

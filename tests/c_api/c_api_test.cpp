@@ -1,5 +1,7 @@
 #include "c_api_toolbox.hpp"
+#include "tests/codec/levels_toolbox.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <random>
@@ -284,6 +286,28 @@ TEST(CApi, RandomCallOrdersNeverCrashAndNeverGiveAWrongFrame) {
         ASSERT_EQ(current_c_frame(decoder), whole.at(decoder.frame()->number));
       }
     }
+  }
+}
+
+TEST(StreamDecoder, DrawsACoarserMesh) {
+  const Sequence sequence = corpus::find_corpus_entry("hand")->make(*corpus::named_size("small")).sequence;
+  EncodeOptions options;
+  options.levels = greedy_levels(sequence.mesh, 4, {2, 4});
+  const Stream stream = encode_sequence(sequence, options);
+  std::size_t last = sequence.mesh.vertex_count + 1;
+  for (const std::uint32_t lod : {0u, 1u, 2u, 9u}) {
+    StreamDecoder decoder;
+    EXPECT_EQ(decoder.use_lod(lod), TVG_OK);
+    decoder.push(stream.data(), stream.size());
+    while (decoder.poll() != TVG_EVENT_FRAME) {
+    }
+    const auto mesh = decoder.mesh();
+    ASSERT_TRUE(mesh);
+    EXPECT_EQ(mesh->lod_count, 2u);
+    EXPECT_EQ(mesh->lod, std::min(lod, 2u));
+    EXPECT_TRUE(mesh->vertex_count < last || lod == 9);
+    last = mesh->vertex_count;
+    EXPECT_EQ(current_c_frame(decoder).positions.size(), 3 * std::size_t{last});
   }
 }
 

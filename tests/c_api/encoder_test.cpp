@@ -207,6 +207,7 @@ TEST(CEncoder, OfABasisTheDecoderSaysHowManyComponentsItHasAndUsesAsManyAsItIsTo
   EXPECT_EQ(first_frame(gop.components, gop), whole);
   EXPECT_NE(first_frame(4, gop), whole);
   EXPECT_EQ(tvg_decoder_use_components(nullptr, 1), TVG_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(tvg_decoder_use_lod(nullptr, 1), TVG_ERROR_INVALID_ARGUMENT);
 }
 
 TEST(CEncoder, WhatComesOutOfTurnIsAWrongStateAndChangesNothing) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <set>
+#include <string>
 
 namespace tvg::conformance {
 namespace {
@@ -30,6 +31,21 @@ TEST(Conformance, EveryStoredStreamDecodesToItsDigests) {
     const Result<StreamFacts> facts = read_stream_facts(read_stored(expected.name));
     ASSERT_TRUE(facts) << expected.name << ": " << facts.error().describe();
     EXPECT_EQ(facts_line({expected.name, *facts}), facts_line(expected));
+  }
+}
+
+TEST(Conformance, EveryLodDecodesToItsDigests) {
+  for (const std::string folder : {"", "random/"}) {
+    std::ifstream file(kFolder / (folder + "lods.txt"));
+    const std::vector<NamedFacts> entries = read_facts(file);
+    EXPECT_GE(entries.size(), 6u);
+    for (const NamedFacts& expected : entries) {
+      const std::size_t at = expected.name.find('@');
+      const auto lod = static_cast<std::uint32_t>(std::stoul(expected.name.substr(at + 1)));
+      const auto facts = read_stream_facts(read_stored(folder + expected.name.substr(0, at)), lod);
+      ASSERT_TRUE(facts) << expected.name << ": " << facts.error().describe();
+      EXPECT_EQ(facts_line({expected.name, *facts}), facts_line(expected));
+    }
   }
 }
 

@@ -22,8 +22,9 @@ void add(Hasher& hasher, const auto& values) {
 
 }  // namespace
 
-Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream) {
+Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std::uint32_t lod) {
   Decoder decoder;
+  decoder.use_lod(lod);
   decoder.push(stream);
   decoder.finish();
   StreamFacts facts;
@@ -65,6 +66,10 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream) {
         break;
     }
   }
+}
+
+std::string lod_name(const std::string& stream, std::uint32_t lod) {
+  return stream + "@" + std::to_string(lod);
 }
 
 std::string facts_heading() {

@@ -21,18 +21,21 @@ struct StreamFacts {
   bool operator==(const StreamFacts&) const = default;
 };
 
-/// Decodes a whole stream, which must be without damage.
-Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream);
+/// Decodes a whole stream, which must be without damage, drawn as this lod.
+Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std::uint32_t lod = 0);
 
 struct NamedFacts {
   std::string name;
   StreamFacts facts;
 };
 
+/// What lods.txt calls a lod of a stream.
+std::string lod_name(const std::string& stream, std::uint32_t lod);
+
 /// The first line of digests.txt, which names its columns.
 std::string facts_heading();
 std::string facts_line(const NamedFacts& entry);
-/// The entries of digests.txt.
+/// The entries of digests.txt, or of lods.txt.
 std::vector<NamedFacts> read_facts(std::istream& file);
 
 }  // namespace tvg::conformance

@@ -5,6 +5,7 @@
 #include "container/head.hpp"
 #include "container/stream_writer.hpp"
 #include "corpus/corpus.hpp"
+#include "tests/codec/levels_toolbox.hpp"
 
 #include <algorithm>
 #include <array>
@@ -250,6 +251,37 @@ Stream make_lossless_half() {
   return encode_sequence(sequence, lossless_options(50));
 }
 
+/// Levels that have nothing to do with the mesh, so that some vertices are far from any that stays.
+Stream make_levels() {
+  const Sequence sequence = corpus_sequence("soup", 2);
+  auto levels = std::make_shared<MeshLevels>();
+  for (std::uint32_t v = 0; v < sequence.mesh.vertex_count; ++v)
+    levels->level.push_back(v == 77 ? 0 : static_cast<std::uint8_t>(1 + v / 40 + (v * 0x9E3779B1u >> 30)));
+  EncodeOptions options = options_of(5, 5, Predictor::kPyramid, 50);
+  options.levels = levels;
+  return encode_sequence(sequence, options);
+}
+
+/// `rounds` of vertices removed, with coarse meshes after the second and the last.
+Stream make_lods(std::string_view name, std::uint32_t rounds, EncodeOptions options) {
+  const Sequence sequence = corpus_sequence(name, options.mode == Mode::kBasis ? 10 : 3);
+  options.levels = test::greedy_levels(sequence.mesh, rounds, {2, rounds});
+  return encode_sequence(sequence, options);
+}
+
+Stream make_lods_basis() {
+  EncodeOptions options = options_of(6, 4, Predictor::kElp, 3);
+  options.mode = Mode::kBasis;
+  options.period_frames = 6;
+  return make_lods("cloth", 5, options);
+}
+
+Stream make_lods_lossless() {
+  EncodeOptions options = lossless_options(50);
+  options.keep_vertex_order = false;
+  return make_lods("cloth", 4, options);
+}
+
 }  // namespace
 
 const std::vector<ConformanceStream>& conformance_streams() {
@@ -302,6 +334,12 @@ const std::vector<ConformanceStream>& conformance_streams() {
       {"lossless_multiples", "mode lossless, multiples of a power of two, and a vertex of no face",
        [] { return encode_sequence(triangle(9), lossless_options(50)); }},
       {"lossless_numbers", "mode lossless, numbers of all sizes and both signs", make_lossless_numbers},
+      {"levels", "the pyramid of levels that know nothing of the mesh", make_levels},
+      {"lods", "coarse meshes without a reference shape, two lattices",
+       [] { return make_lods("soup", 6, options_of(6, 4, Predictor::kElp, 2)); }, true, 2},
+      {"lods_lossless", "coarse meshes in mode lossless, the vertex order given up", make_lods_lossless, true,
+       2},
+      {"lods_basis", "mode basis in three parts, two lattices, several periods", make_lods_basis, false, 2},
       {"basis", "mode basis, several periods of several GOPs", [] { return make_basis(5, 5, 14, 7); }, false},
       {"basis_hybrid", "mode basis, two lattices", [] { return make_basis(7, 4, 6, 6); }, false},
       {"basis_error", "mode basis, a bound of the error, and a vertex of no face", make_basis_error, false},

@@ -13,6 +13,7 @@ struct ConformanceStream {
   /// Whether `make` gives the same bytes on every machine. Where it fits a basis it does not: how a compiler
   /// rounds and sums what is fitted decides what is stored, though never what the stored bytes decode to.
   bool same_everywhere = true;
+  std::uint32_t lods = 0;  ///< coarse meshes that its mesh has
 };
 
 /// Every conformance stream there is.

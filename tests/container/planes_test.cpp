@@ -147,7 +147,10 @@ TEST(Planes, ThatCannotBeUsedCostTheGopsThatNameThemAndNoOther) {
     std::size_t problems;  ///< of the planes themselves
     ErrorCode code;        ///< of the GOP that names them
   } cases[] = {
-      {plan_with({.adds_to = 1, .mode = kModeBasis, .fields = {}}), 0, ErrorCode::kUnsupported},
+      {plan_with({.adds_to = 1, .mode = kModeBasis, .fields = {}}), 1, ErrorCode::kMalformed},
+      {plan_with({.adds_to = std::uint64_t{1} << 33, .mode = kModeBasis, .fields = {}}), 1,
+       ErrorCode::kMalformed},
+      {plan_with({.adds_to = chunk_id(kSecondPlan) + 1u, .mode = 9, .fields = {}}), 1, ErrorCode::kMalformed},
       {some_plan(kMesh, 1, 300), 1, ErrorCode::kLimitExceeded},
       {some_plan(kOtherMesh, 1), 1, ErrorCode::kMalformed},
       {write_chunk(kPlanChunk, false, Buffer{1, 2, 3}), 1, ErrorCode::kMalformed},

@@ -255,7 +255,10 @@ TEST(MeshChunk, CountsAndSectionsOutOfRangeAreRefused) {
   refused(read(5, 5, {{3, {0}}}), ErrorCode::kMalformed, "§4.3");
   refused(read(5, 5, {connectivity, connectivity}), ErrorCode::kMalformed, "§3.5");
   refused(read(5, 5, {connectivity, {5, {}}}), ErrorCode::kMalformed, "§5.3");
-  refused(read(5, 5, {connectivity, {7, {}}}), ErrorCode::kUnsupported, "§4.3");
+  refused(read(5, 5, {connectivity, {7, {}}}), ErrorCode::kMalformed, "§5.5");
+  refused(read(5, 5, {connectivity, {7, {1}}, {9, {}}}), ErrorCode::kMalformed, "§5.6");
+  refused(read(5, 5, {connectivity, {9, {1}}}), ErrorCode::kMalformed, "§5.6");
+  refused(read(5, 5, {connectivity, {11, {}}}), ErrorCode::kUnsupported, "§4.3");
   expect_refused(read_mesh(Buffer{5, 5, 1, 9, 1}), ErrorCode::kMalformed, "§4.3");
 }
 

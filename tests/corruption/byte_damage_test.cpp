@@ -17,8 +17,9 @@ bool exhaustive() {
 
 std::vector<std::string_view> damaged_streams() {
   if (!exhaustive())
-    return {"metadata",       "step",     "hybrid_time", "gops",         "two_meshes",   "meshes_again",
-            "pyramid_hybrid", "lossless", "basis",       "basis_hybrid", "unknown_chunk"};
+    return {"metadata",      "step",           "hybrid_time", "gops",       "two_meshes",
+            "meshes_again",  "pyramid_hybrid", "lossless",    "basis",      "basis_hybrid",
+            "unknown_chunk", "levels",         "lods@1",      "lods_basis", "lods_basis@1"};
   std::vector<std::string_view> names;
   for (const auto& stream : conformance::conformance_streams()) names.push_back(stream.name);
   return names;
@@ -122,7 +123,8 @@ TEST(ByteDamage, BehindFittingChecksumsNothingTakesMoreMemoryThanDeclared) {
 }
 
 TEST(ByteDamage, AFailedAllocationIsAnErrorLikeAnother) {
-  for (const std::string_view name : {"hybrid_time", "two_meshes", "metadata", "basis_and_elp"}) {
+  for (const std::string_view name :
+       {"hybrid_time", "two_meshes", "metadata", "basis_and_elp", "lods_basis@1"}) {
     const Original original = make_original(name);
     const std::size_t peak = judge(original, original.stream).memory;
     std::set<ErrorCode> errors;

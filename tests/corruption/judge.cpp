@@ -51,11 +51,15 @@ class Eye {
 
 Original make_original(std::string_view conformance_stream) {
   Original original;
-  std::ifstream file(
-      std::filesystem::path(TVG_CONFORMANCE_FOLDER) / (std::string(conformance_stream) + ".tvg"),
-      std::ios::binary);
+  const std::size_t at = conformance_stream.find('@');
+  if (at != std::string_view::npos)
+    original.lod = static_cast<std::uint32_t>(std::stoul(std::string(conformance_stream.substr(at + 1))));
+  std::ifstream file(std::filesystem::path(TVG_CONFORMANCE_FOLDER) /
+                         (std::string(conformance_stream.substr(0, at)) + ".tvg"),
+                     std::ios::binary);
   original.stream.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   Decoder decoder;
+  decoder.use_lod(original.lod);
   decoder.push(original.stream);
   decoder.finish();
   Eye eye;
@@ -87,6 +91,7 @@ Verdict judge(const Original& original, std::span<const std::uint8_t> stream, st
   verdict.reports.reserve(kRoom);
   Eye eye;
   Decoder decoder;
+  decoder.use_lod(original.lod);
   const MemoryMeter meter(memory_cap);
   for (;;) {
     switch (decoder.poll()) {

@@ -16,8 +16,10 @@ struct Original {
   std::vector<std::uint8_t> stream;
   std::vector<std::uint64_t> frames;  ///< [frame]
   std::uint64_t declared_memory = 0;  ///< bytes, as its head says
+  std::uint32_t lod = 0;              ///< as which it is drawn
 };
 
+/// Of a stream by its name, or of one of its lods, "lods@1".
 Original make_original(std::string_view conformance_stream);
 
 /// What a decoder says about a damaged stream.

@@ -49,6 +49,8 @@ class Session {
         if (amount == 31) decoder_.finish(), plain_ = false;
         if (amount >= 24 && amount < 31)
           decoder_.use_components(static_cast<std::uint32_t>(amount - 24)), plain_ = false;
+        if (amount >= 20 && amount < 24)
+          decoder_.use_lod(static_cast<std::uint32_t>(amount - 20)), plain_ = false;
         break;
       case 3:
         if (const auto offset = decoder_.seek(amount)) at_ = *offset, plain_ = false;

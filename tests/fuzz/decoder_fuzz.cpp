@@ -21,6 +21,7 @@ constexpr std::uint8_t kRepairLengths = 1;
 constexpr std::uint8_t kRepairChecksums = 2;
 constexpr std::uint8_t kMeasureBits = 4;
 constexpr std::uint8_t kCopyWide = 8;
+constexpr int kLodShift = 4;  // two bits
 
 tvg::DecoderLimits small_limits() {
   tvg::DecoderLimits limits;
@@ -86,6 +87,7 @@ class Player {
 std::size_t decode(std::span<const std::uint8_t> stream, std::size_t piece, std::uint8_t options) {
   Decoder decoder(small_limits());
   decoder.measure_bits((options & kMeasureBits) != 0);
+  decoder.use_lod((options >> kLodShift) & 3u);
   Player player(decoder, (options & kCopyWide) != 0);
   std::size_t damages = 0;
   for (;;) {

@@ -28,7 +28,8 @@ bool write_file(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 /// The decoder's seeds: options and size of pieces in front of the stream.
 bool write_decoder_seeds(const fs::path& folder, const std::string& name,
                          const std::vector<std::uint8_t>& stream) {
-  constexpr std::array<std::array<std::uint8_t, 2>, 3> kStarts = {{{0, 1}, {2, 0}, {3, 61}}};
+  constexpr std::array<std::array<std::uint8_t, 2>, 5> kStarts = {
+      {{0, 1}, {2, 0}, {3, 61}, {0x12, 0}, {0x20, 61}}};
   for (const auto& start : kStarts) {
     std::vector<std::uint8_t> seed(start.begin(), start.end());
     seed.insert(seed.end(), stream.begin(), stream.end());
@@ -53,8 +54,9 @@ bool write_streams_seeds(const fs::path& folder, const std::string& name,
 bool write_c_api_seeds(const fs::path& folder, const std::string& name,
                        const std::vector<std::uint8_t>& stream) {
   const std::vector<std::uint8_t> pushes = {0xF9, 6, 6, 6, 0xF8, 6, 0x21, 6, 6};
+  const std::vector<std::uint8_t> coarse = {0xAA, 0xF9, 6, 6, 4, 6, 0xF9, 4, 6, 6, 6};  // of lod 1
   const std::vector<std::uint8_t> seeks = {0xF9, 6, 6, 6, 5, 0x23, 4, 0xF9, 6, 6, 6, 0x0B, 0xF9, 4, 6, 6};
-  for (const auto& calls : {pushes, seeks}) {
+  for (const auto& calls : {pushes, coarse, seeks}) {
     std::vector<std::uint8_t> seed = {2, static_cast<std::uint8_t>(calls.size())};
     seed.insert(seed.end(), calls.begin(), calls.end());
     seed.insert(seed.end(), stream.begin(), stream.end());

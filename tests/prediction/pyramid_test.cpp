@@ -213,6 +213,80 @@ TEST(Pyramid, StaysWithinTheMemoryItPromises) {
   }
 }
 
+/// Levels without a thought to the mesh, `count` of them, of which each has a vertex.
+std::vector<std::uint8_t> some_levels(std::uint32_t vertices, std::uint32_t count) {
+  test::Noise noise;
+  std::vector<std::uint8_t> levels;
+  for (std::uint32_t v = 0; v < vertices; ++v)
+    levels.push_back(
+        static_cast<std::uint8_t>(v < count ? v : static_cast<std::uint32_t>(noise.below(count))));
+  return levels;
+}
+
+Pyramid pyramid_of(const ShapedMesh& shaped, const std::vector<std::uint8_t>& levels) {
+  Result<Pyramid> pyramid =
+      build_pyramid(shaped.mesh.faces, shaped.mesh.vertex_count, shaped.shape, 12, levels);
+  EXPECT_TRUE(pyramid);
+  return std::move(*pyramid);
+}
+
+TEST(PyramidOfLevels, HasTheVerticesOfLowerLevelsFirstWhateverTheLevels) {
+  for (const ShapedMesh& shaped : {test::sheet(40), test::medley(), test::soup(300), test::hub(3000, true)}) {
+    for (const std::uint32_t count : {1u, 2u, 3u, 9u, 64u}) {
+      const std::vector<std::uint8_t> levels = some_levels(shaped.mesh.vertex_count, count);
+      const Pyramid p = pyramid_of(shaped, levels);
+      ASSERT_EQ(p.order.size(), levels.size());
+      EXPECT_TRUE(std::is_sorted(p.level.begin(), p.level.end()));
+      EXPECT_LE(p.levels, 49 + count - 1);
+      std::vector<bool> had(levels.size());
+      for (std::size_t turn = 0; turn < p.order.size(); ++turn) {
+        if (turn > 0) {
+          const std::uint8_t before = levels[p.order[turn - 1]], now = levels[p.order[turn]];
+          ASSERT_GE(now, before);
+          ASSERT_TRUE(now == before || p.level[turn] != p.level[turn - 1]);
+        }
+        for (std::size_t i = turn * 12; i < turn * 12 + p.count[turn]; ++i) ASSERT_TRUE(had[p.neighbour[i]]);
+        ASSERT_FALSE(had[p.order[turn]]);
+        had[p.order[turn]] = true;
+      }
+    }
+  }
+}
+
+TEST(PyramidOfLevels, IsThePyramidItselfWhereThereIsOneLevel) {
+  const ShapedMesh shaped = test::medley();
+  EXPECT_EQ(hash_of(pyramid_of(shaped, some_levels(shaped.mesh.vertex_count, 1))),
+            hash_of(pyramid_of(shaped, 12u)));
+}
+
+TEST(PyramidOfLevels, HoldsWhereAllButOneVertexGoAtOnce) {
+  const ShapedMesh shaped = test::sheet(60);
+  std::vector<std::uint8_t> levels(shaped.mesh.vertex_count, 1);
+  levels[17] = 0;
+  const Pyramid p = pyramid_of(shaped, levels);
+  EXPECT_EQ(p.order.front(), 17u);
+  EXPECT_EQ(p.levels, 2u);
+}
+
+TEST(PyramidOfLevels, StaysWithinTheMemoryItPromises) {
+  for (const ShapedMesh& shaped :
+       {test::sheet(150), test::soup(8000), test::hub(20000, true), test::hub(20000, false)}) {
+    for (const std::uint32_t count : {2u, 7u, 64u}) {
+      const std::vector<std::uint8_t> levels = some_levels(shaped.mesh.vertex_count, count);
+      const corruption::MemoryMeter meter;
+      const Pyramid p = pyramid_of(shaped, levels);
+      const std::size_t result = p.order.size() * (4 + 1 + 1 + 12 * (4 + 2));
+      EXPECT_LE(meter.peak(),
+                result + 96 * std::size_t{shaped.mesh.vertex_count} + 96 * shaped.mesh.faces.size() + 65536);
+    }
+  }
+}
+
+TEST(PyramidOfLevels, IsTheSameOnEveryMachine) {
+  const ShapedMesh shaped = test::medley();
+  EXPECT_EQ(hash_of(pyramid_of(shaped, some_levels(shaped.mesh.vertex_count, 5))), 6378973407516348405u);
+}
+
 TEST(Pyramid, SaysWhenThereIsNoMemory) {
   const ShapedMesh shaped = test::sheet(100);
   std::size_t peak = 0;

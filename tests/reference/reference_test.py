@@ -31,10 +31,10 @@ def lines(*names):
     text = stored(*names).decode("utf-8").splitlines()
     return dict(line.split(" ", 1) for line in text if line and not line.startswith("#"))
 
-def facts(path):
-    """What the reference says of the stream in a file."""
+def facts(path, lod=0):
+    """What the reference says of the stream in a file, drawn as this lod."""
     try:
-        return reference.decode(path).facts()
+        return reference.decode(path, lod).facts()
     except reference.Invalid as error:
         return str(error)
 
@@ -65,6 +65,14 @@ class TheReference(unittest.TestCase):
                 self.assertEqual(found, listed)
                 files = {name[:-4] for name in os.listdir(os.path.join(STREAMS, folder)) if name.endswith(".tvg")}
                 self.assertEqual(files, set(listed))
+
+    def test_gives_the_digests_of_every_lod(self):
+        with concurrent.futures.ProcessPoolExecutor() as pool:
+            for folder in ("", "random"):
+                listed = lines(folder, "lods.txt")
+                names, lods = zip(*(name.split("@") for name in listed))
+                paths = [os.path.join(STREAMS, folder, name + ".tvg") for name in names]
+                self.assertEqual(dict(zip(listed, pool.map(facts, paths, map(int, lods)))), listed)
 
     def test_names_what_is_wrong_with_every_negative_stream(self):
         listed = lines("negative", "negative.txt")
@@ -123,7 +131,7 @@ class TheWriters(unittest.TestCase):
             self.assertEqual(data, stored("random", name + ".tvg"), name)
 
     def test_make_valid_streams_of_any_seed(self):
-        for seed in (*range(1000, 1040), *range(2000, 2020)):
+        for seed in (*range(1000, 1040), *range(2000, 2020), *range(3000, 3020)):
             self.assertEqual(verdict(random_streams.RandomStream(seed).write()), "valid", seed)
 
 if __name__ == "__main__":

@@ -1,3 +1,5 @@
+#include "tests/codec/codec_toolbox.hpp"
+#include "tests/conformance/streams.hpp"
 #include "tests/container/plan_streams.hpp"
 
 #include <algorithm>
@@ -13,7 +15,6 @@
 namespace tvg::test {
 namespace {
 
-using Stream = PlanBuffer;
 using ::testing::ElementsAre;
 
 const Stream kMesh = some_mesh(1), kOtherMesh = some_mesh(2);
@@ -77,6 +78,26 @@ TEST(PlanesOfStreams, JoinCopiesThoseThatGopsNeedOnceWhileTheyAreInForce) {
   EXPECT_EQ(letters(joined({stream}, FrameRange{4, 5})), "HMPGIT");
   const Stream first = joined({stream}, FrameRange{0, 1}), third = joined({stream}, FrameRange{4, 5});
   EXPECT_EQ(letters(joined({first, third})), "HMPGGIT");
+}
+
+TEST(PlanesOfStreams, JoinKeepsThePartsOfABasisTogether) {
+  const Stream stream = conformance::make_stream("lods_basis");
+  EXPECT_EQ(letters(stream), "HMPPPGGPPPGGIT");
+  EXPECT_EQ(joined({stream}), stream);
+  const Stream second = joined({stream}, FrameRange{6, 9});
+  EXPECT_EQ(letters(second), "HMPPPGGIT");
+  const Stream thrice = joined({second, stream, second});
+  EXPECT_EQ(letters(thrice), "HMPPPGGPPPGGPPPGGGGIT");
+  for (const std::uint32_t lod : {0u, 1u, 2u}) {
+    Decoder decoder;
+    decoder.use_lod(lod);
+    decoder.push(thrice);
+    decoder.finish();
+    DecodedStream decoded;
+    drain(decoder, decoded);
+    EXPECT_TRUE(decoded.complete && decoded.damage.empty());
+    EXPECT_EQ(decoded.frames.size(), 18u);
+  }
 }
 
 TEST(PlanesOfStreams, JoinedLimitsHoldForAllInputs) {

@@ -50,21 +50,20 @@ Stream assemble(const std::vector<StreamPart>& parts, std::size_t first, std::si
     return Status();
   });
   Metadata metadata;
-  const StreamPart *mesh = nullptr, *plan = nullptr;
+  const StreamPart* mesh = nullptr;
+  std::vector<const StreamPart*> plans;  // of the mesh
   for (std::size_t i = 0; i < first; ++i) {
     if (parts[i].kind == StreamPart::Kind::kMetadata) metadata = parts[i].metadata;
-    if (parts[i].kind == StreamPart::Kind::kPlan) plan = &parts[i];
+    if (parts[i].kind == StreamPart::Kind::kPlan) plans.push_back(&parts[i]);
     if (parts[i].kind != StreamPart::Kind::kMesh) continue;
     mesh = &parts[i];
-    plan = nullptr;
+    plans.clear();
   }
   EXPECT_TRUE(assembler.begin(parts.at(0).limits, metadata).ok());
   if (mesh != nullptr) {
     EXPECT_TRUE(assembler.write_mesh(mesh->chunk).ok());
   }
-  if (plan != nullptr) {
-    EXPECT_TRUE(assembler.write_plan(plan->chunk).ok());
-  }
+  for (const StreamPart* plan : plans) EXPECT_TRUE(assembler.write_plan(plan->chunk).ok());
   for (std::size_t i = first; i < last; ++i) {
     const StreamPart& part = parts[i];
     if (part.kind == StreamPart::Kind::kMesh) {
@@ -129,7 +128,7 @@ TEST(Relay, SplittingAndAssemblingGivesTheSameFrames) {
 }
 
 TEST(Relay, WhoJoinsAndLeavesAnywhereHasAWholeStream) {
-  for (const char* name : {"gops", "two_meshes", "metadata", "basis"}) {
+  for (const char* name : {"gops", "two_meshes", "metadata", "basis", "lods_basis"}) {
     const Stream stream = conformance::make_stream(name);
     const std::vector<StreamPart> parts = split_whole(stream).parts;
     const DecodedStream all = decode_stream(stream);

@@ -48,12 +48,25 @@ struct ChunkInfo {
   std::uint64_t bytes = 0;   ///< of header, payload and checksum
 };
 
+/// A coarser mesh over some of a mesh's vertices.
+struct LodInfo {
+  std::uint32_t levels = 0;  ///< it has the vertices of levels below
+  std::uint32_t vertices = 0;
+  std::uint32_t faces = 0;
+  std::uint64_t bytes = 0;  ///< of its coded parts
+};
+
 /// What the coded parts of the current mesh take.
 struct MeshInfo {
   std::uint64_t connectivity_bytes = 0;
   std::uint64_t order_bytes = 0;
   std::uint64_t shape_bytes = 0;   ///< of the reference shape
   bool keeps_vertex_order = true;  ///< frames come in the order of the encoder's input
+  std::uint64_t levels_bytes = 0;  ///< of the levels of vertices
+  std::uint64_t lods_bytes = 0;    ///< of the coarser meshes
+  std::uint32_t levels = 0;        ///< that the vertices have; 0 where none were transmitted
+  std::vector<LodInfo> lods = {};  ///< the finest first
+  std::uint32_t lod = 0;           ///< which of them mesh() is, counted from 1; 0: the whole mesh
 };
 
 /// Decodes a stream as its bytes arrive. Bytes go in with push(), in pieces of any size; poll() then says
@@ -104,15 +117,20 @@ class Decoder {
   /// those met so far is reached by reading on; GOPs in between are passed over, not decoded.
   /// kInvalidArgument where the index says that there is no such frame, or before kHead.
   Result<std::uint64_t> seek(std::uint64_t frame);
-  /// The number of bytes that come next in the input and are of no use on the way to the frame sought; they
-  /// count as pushed, so that the next push() begins behind them. A caller that reads from a pipe need not
-  /// ask.
+  /// The number of bytes that come next in the input and are of no use on the way to the frame sought, or for
+  /// the mesh that use_lod() asks for; they count as pushed, so that the next push() begins behind them. A
+  /// caller that reads from a pipe need not ask.
   std::uint64_t skip();
   /// Of the planes that GOPs in mode basis share and that are read from now on, decode only the first `most`
   /// (a multiple of four, or rounded up to one): the others count as 0, which gives coarser frames sooner.
   /// Planes are ordered by what they add. Those left out go without a check by their digest; the rows of
   /// frames are checked as ever. Other modes have no components. All are decoded unless this says otherwise.
   void use_components(std::uint32_t most);
+  /// Draws meshes that are read from now on as one of the coarser meshes that they have: 1 the first coarser
+  /// one, and so on, whatever is above the last as the last; 0, as at first, the whole mesh. What is said of
+  /// vertices below is then said of that mesh's. In mode basis fewer bytes are needed for it: skip() leaves
+  /// out the others, and that they are damaged loses no frame. Other modes decode all.
+  void use_lod(std::uint32_t lod);
   /// Whether frame_bits() is measured; it takes time.
   void measure_bits(bool on);
   /// The next event. After kEnd and kError it is the same until seek().
@@ -120,9 +138,14 @@ class Decoder {
 
   const StreamHead& head() const;
   const Metadata& metadata() const;
-  /// Connectivity in the order frames are given in: the input's own unless the stream gave that up.
+  /// Connectivity in the order frames are given in: the input's own unless the stream gave that up. Of a
+  /// coarser mesh (use_lod()) the vertices are some of the whole mesh's, in the same order.
   const Mesh& mesh() const;
   const MeshInfo& mesh_info() const;
+  /// Coarser meshes that the current mesh has.
+  std::uint32_t lod_count() const;
+  /// [vertex of mesh()]: its number in the whole mesh, ascending; empty where mesh() is the whole.
+  std::span<const std::uint32_t> lod_vertices() const;
   const ChunkInfo& chunk() const;
   const GopInfo& gop() const;
 

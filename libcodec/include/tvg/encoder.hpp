@@ -5,6 +5,7 @@
 #include <span>
 
 #include <tvg/geometry.hpp>
+#include <tvg/levels.hpp>
 #include <tvg/measure.hpp>
 #include <tvg/source.hpp>
 #include <tvg/types.hpp>
@@ -43,6 +44,10 @@ struct EncodeOptions {
   /// the same.
   std::optional<ErrorBound> max_error;
   bool keep_vertex_order = true;
+  /// Levels of the first mesh's vertices, and coarser meshes of it, at most 16, each with no more faces than
+  /// the mesh. The pyramid is built from the levels; a coarser mesh can be played (Decoder::use_lod()), in
+  /// mode basis from fewer bytes. kInvalidArgument where they do not fit the mesh. Null: none.
+  std::shared_ptr<const MeshLevels> levels = {};
   std::uint64_t first_frame = 0;  ///< number of the source's first frame in a longer sequence it was cut from
   unsigned threads = 1;           ///< GOPs encoded at the same time; the bytes do not depend on it
   Metadata metadata;              ///< encode() adds what the source says

@@ -9,6 +9,8 @@ namespace tvg {
 
 /// Levels of vertices: what takes part in a coarser mesh has a lower one.
 inline constexpr std::uint32_t kMaxVertexLevels = 64;
+/// Coarser meshes of one.
+inline constexpr std::uint32_t kMaxCoarseMeshes = 16;
 
 /// A coarser mesh over some of a mesh's vertices.
 struct CoarseMesh {

@@ -60,6 +60,8 @@ class StreamDecoder {
 
   tvg_code use_components(std::uint32_t most) { return tvg_decoder_use_components(get(), most); }
 
+  tvg_code use_lod(std::uint32_t lod) { return tvg_decoder_use_lod(get(), lod); }
+
   std::string error_text() const { return tvg_decoder_error_text(get()); }
   tvg_code error_code() const { return tvg_decoder_error_code(get()); }
 

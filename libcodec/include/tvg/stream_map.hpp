@@ -31,7 +31,9 @@ class StreamMap {
     IndexEntry entry;
     std::uint64_t first_frame = 0;  ///< position in the stream of the first frame at or behind this place
     std::optional<std::uint64_t> mesh_offset = {};  ///< of a GOP: where its mesh's chunk begins, if known
-    PlaneList plan_offsets = {};  ///< of a GOP: where the chunks of its planes begin, as far as is known
+    /// Of a GOP: where the chunks of its planes begin: of all of them as an index has it, of those that were
+    /// needed while reading.
+    PlaneList plan_offsets = {};
 
     std::uint64_t end_frame() const { return first_frame + entry.frame_count; }
   };
@@ -55,8 +57,11 @@ class StreamMap {
   const Place* gop_for(std::uint64_t frame) const;
   /// Where the chunks of meshes and planes begin that decoding needs which begins at this GOP of the map, of
   /// a stream with these limits, ascending: those that it and the GOPs behind it name and that lie before it;
-  /// without an index the last ones too, since what follows is not known. Empty where there is no memory.
-  std::vector<std::uint64_t> needed_for(const Place& gop, const StreamLimits& limits) const;
+  /// without an index the last ones too, since what follows is not known. For the coarser mesh of number
+  /// `lod` (Decoder::use_lod()) so many chunks of planes at the end of those of each GOP are left out. Empty
+  /// where there is no memory.
+  std::vector<std::uint64_t> needed_for(const Place& gop, const StreamLimits& limits,
+                                        std::uint32_t lod = 0) const;
   /// The place that begins at `offset`, or null.
   const Place* at(std::uint64_t offset) const;
   /// Whether an index says the same.

@@ -17,12 +17,13 @@ struct SurveyedMesh {
   MeshInfo parts;
 };
 
-/// Planes that GOPs in mode basis share.
+/// Planes that GOPs in mode basis share, or a part of them.
 struct SurveyedPlan {
   std::uint64_t first_frame = 0;  ///< of those GOPs, position in the stream
   std::uint64_t frame_count = 0;  ///< of all of them
   std::uint32_t components = 0;
   std::uint64_t bytes = 0;  ///< of the whole chunk
+  std::uint32_t part = 0;   ///< 0, or how many parts there are that this one adds to
 };
 
 /// What a stream's structures say without being decoded.

@@ -134,6 +134,8 @@ typedef struct tvg_mesh_info {
   uint32_t face_count;
   const uint32_t* faces; /* [face][corner], counter-clockwise; the decoder's own, until the next
                             TVG_EVENT_MESH or tvg_decoder_destroy */
+  uint32_t lod_count;    /* coarser meshes that the stream has of it */
+  uint32_t lod;          /* which of them this is, counted from 1; 0: the whole mesh */
 } tvg_mesh_info;
 
 /* How the frames of a GOP are coded. */
@@ -164,8 +166,7 @@ typedef struct tvg_frame_info {
   uint32_t predictor;    /* a tvg_predictor: what it was predicted from */
 } tvg_frame_info;
 
-/* Frames that are missing or, with TVG_ERROR_DIGEST_MISMATCH and TVG_ERROR_MALFORMED, were given out and are
-   not to be trusted. */
+/* Frames that are missing or, with TVG_ERROR_DIGEST_MISMATCH and TVG_ERROR_MALFORMED, not to be trusted. */
 typedef struct tvg_damage_info {
   size_t struct_size;
   uint64_t first_frame;
@@ -183,8 +184,7 @@ TVG_API const char* tvg_code_name(int code);
 /* Sets all limits to what they are without being set. `limits->struct_size` must be set. */
 TVG_API tvg_code tvg_limits_init(tvg_limits* limits);
 
-/* A new decoder, the caller's to destroy. `limits` may be null. Null where memory is short, or `struct_size`
-   is not set. */
+/* A new decoder, the caller's to destroy; null without memory or `struct_size`. `limits` may be null. */
 TVG_API tvg_decoder* tvg_decoder_create(const tvg_limits* limits);
 /* Null is allowed. */
 TVG_API void tvg_decoder_destroy(tvg_decoder* decoder);
@@ -233,17 +233,21 @@ TVG_API tvg_code tvg_decoder_load_index(tvg_decoder* decoder, const void* bytes,
    it. The bytes pushed from now on must begin at `*offset` of the stream. Without an index a frame ahead is
    reached by reading on, which decodes only the GOP that holds it. */
 TVG_API tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t* offset);
-/* How many of the bytes that come next are of no use on the way to a frame. They count as pushed: the next
-   push begins behind them. A caller that reads from a pipe need not ask. */
+/* How many of the bytes that come next are of no use, on the way to a frame or for what tvg_decoder_use_lod
+   asks for. They count as pushed: the next push begins behind them. Who reads from a pipe need not ask. */
 TVG_API uint64_t tvg_decoder_skip(tvg_decoder* decoder);
 
 /* Decodes only the first `most` components, rounded up to a multiple of four, of each basis (TVG_MODE_BASIS)
    that is read from now on; those that add most come first. All are decoded unless this says otherwise. */
 TVG_API tvg_code tvg_decoder_use_components(tvg_decoder* decoder, uint32_t most);
 
+/* Draws meshes read from now on as a coarser one that they have, of which all vertices are then: 1 the first,
+   and so on, at most the last; 0, as at first, the whole. Fewer bytes are needed for it in TVG_MODE_BASIS. */
+TVG_API tvg_code tvg_decoder_use_lod(tvg_decoder* decoder, uint32_t lod);
+
 /* What went wrong last: in TVG_EVENT_ERROR, or in a function that did not return TVG_OK and took a decoder
-   that was not const. One line for people; the decoder's own, until the next such event or call. "" where
-   nothing has. */
+   that was not const. One line; the decoder's own, until the next such event or call. "" where nothing has.
+ */
 TVG_API const char* tvg_decoder_error_text(const tvg_decoder* decoder);
 /* Its code; TVG_OK where nothing has. */
 TVG_API tvg_code tvg_decoder_error_code(const tvg_decoder* decoder);
@@ -346,8 +350,7 @@ TVG_API tvg_code tvg_encoder_add_frame(tvg_encoder* encoder, const void* positio
 /* Ends the stream. `report` may be null. */
 TVG_API tvg_code tvg_encoder_finish(tvg_encoder* encoder, tvg_encode_report* report);
 
-/* What the last call that did not return TVG_OK said; the encoder's own, until the next such call. "" where
-   nothing has failed. */
+/* What the last call said that did not return TVG_OK; the encoder's own, until the next such call; or "". */
 TVG_API const char* tvg_encoder_error_text(const tvg_encoder* encoder);
 
 /* How far decoded frames lie from their originals. Distances are in the mesh's units. */
@@ -370,8 +373,7 @@ TVG_API tvg_code tvg_comparer_create(uint32_t vertex_count, const uint32_t* face
                                      tvg_comparer** comparer);
 /* Null is allowed. */
 TVG_API void tvg_comparer_destroy(tvg_comparer* comparer);
-/* The next frame of both, [vertex][xyz], `count` = 3 * vertex_count floats each. A frame that fails does not
-   count. */
+/* The next frame of both, [vertex][xyz], `count` = 3 * vertex_count floats each, unless the call fails. */
 TVG_API tvg_code tvg_comparer_add_frame(tvg_comparer* comparer, const float* original, const float* decoded,
                                         size_t count);
 /* The figures over the frames so far. */

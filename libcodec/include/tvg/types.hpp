@@ -200,6 +200,14 @@ constexpr std::uint64_t decoder_memory_with_plans(const StreamLimits& limits) {
          1536 * components;
 }
 
+/// The same where meshes have coarser ones, and planes that GOPs share come in parts (format-spec §8.2).
+constexpr std::uint64_t decoder_memory_with_lods(const StreamLimits& limits) {
+  const std::uint64_t vertices = limits.vertices, faces = limits.faces, meshes = limits.meshes;
+  const std::uint64_t parts = std::uint64_t{limits.plans} * limits.plan_bytes;
+  return (limits.plan_bytes > 0 ? decoder_memory_with_plans(limits) : decoder_memory_with_shapes(limits)) +
+         parts + (std::uint64_t{1} << 18) + vertices * (64 + 16 * meshes) + faces * (96 + 16 * meshes);
+}
+
 /// What the head of a stream says.
 struct StreamHead {
   std::uint16_t major = kFormatMajor;
