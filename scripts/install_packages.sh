@@ -4,7 +4,7 @@
 # Does nothing when all are there; as root it installs the missing ones; otherwise it lists them and fails.
 set -euo pipefail
 
-build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libcli11-dev libfmt-dev
+build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libopenmesh-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev libglfw3-dev libimgui-dev libepoxy-dev libegl-dev
   libfontconfig-dev libgl1-mesa-dri libpng-dev libcurl4-openssl-dev libcpp-httplib-dev fonts-dejavu-core libassimp-dev)
 test=(ffmpeg nginx-light xvfb assimp-testmodels python3)

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,16 +22,19 @@ enum class SimplifyPriority : std::uint8_t {
 };
 
 struct SimplifyOptions {
-  /// Numbers of vertices at which a mesh is kept, strictly falling, each at least 3: removal ends at the last.
+  /// Numbers of vertices at which a mesh is kept, strictly falling, each at least 3, at most 63 of them:
+  /// removal ends at the last.
   std::vector<std::uint32_t> vertex_counts;
+  /// Priorities are worked out anew on the mesh that each level begins with.
   SimplifyPriority priority = SimplifyPriority::kMeasure;
   double lambda = 0.5;    ///< of Eq. 7: weight of the area against the curvature, 0 to 1
   Importance importance;  ///< of kMeasure: the criteria whose weighted sum is the cost
-  /// Degrees by which the normal of a new face may be off from that of the faces it replaces, in any frame; up
-  /// to 180.
+  /// Degrees by which the normal of a new face may be off from that of the faces it replaces as a whole, in
+  /// any frame, unless one of these was further off there; up to 180. A boundary may turn by half of it where
+  /// a vertex is taken out of it.
   double largest_turn = 75;
   /// In every frame given no face may fold; in so many of them, evenly spread, none may come to intersect
-  /// another that it did not intersect before. 0 for none.
+  /// another where none did before. 0 for none.
   std::uint32_t intersection_frames = 8;
 };
 
@@ -53,10 +57,13 @@ struct SimplifyLevel {
   std::uint32_t removed = 0;
   std::uint32_t refused = 0;  ///< chosen, but there was no way to fill their hole without a fold
   /// [frame] The paper's Eq. 8 summed over all vertices removed up to this level: the squared distances of
-  /// each from the planes of the original's faces around it, when it lies at its place on the simplified mesh;
-  /// in a frame that is scaled so that the mesh's largest extent over all frames is 1.
+  /// each from the planes of the original's faces around it, when it lies at its place on the simplified
+  /// mesh; in a frame that is scaled so that the mesh's largest extent over all frames is 1.
   std::vector<double> quadric_error;
 };
+
+/// How each hole was filled: what remesh() goes back by.
+class RemovalHistory;
 
 struct Simplification {
   /// [vertex_counts] With more vertices than asked for where no more could be removed without a fold.
@@ -65,12 +72,15 @@ struct Simplification {
   std::vector<std::uint32_t> removed;  ///< vertices of the original in the order they were removed
   /// What the encoder makes a pyramid of, with the meshes of `vertex_counts` as coarser ones.
   MeshLevels mesh_levels;
+  std::shared_ptr<const RemovalHistory> history;
 };
 
 /// Hears how many vertices are removed, and how many are to be.
 using SimplifyProgress = std::function<void(std::uint32_t removed, std::uint32_t total)>;
 
-/// Simplifies a mesh that moves. `frames` are [frame][vertex][xyz], at least one: the whole sequence, or
+/// Simplifies a mesh that moves. Vertices without a face go first; those of edges where more than two faces
+/// meet, or faces disagree about their sense, and those where fans of faces meet in a point stay. Boundary
+/// loops and components are kept. `frames` are [frame][vertex][xyz], at least one: the whole sequence, or
 /// frames of it that stand for all; `joints` are [frame][joint][xyz], empty unless a criterion uses them.
 /// kInvalidArgument for options out of range and where check_importance() fails, kInvalidInput for frames of
 /// a wrong size or that are not finite, and for a mesh without a face that has an area.
@@ -81,5 +91,27 @@ Result<Simplification> simplify(const Mesh& mesh, std::span<const FramePositions
 /// Where the vertices of `mesh` with these positions [vertex][xyz] put the places, [place][xyz].
 void positions_of(const Mesh& mesh, std::span<const SurfacePlace> places, std::span<const float> positions,
                   std::span<float> result);
+
+struct RemeshOptions {
+  std::uint32_t levels = 2;  ///< how often faces are cut in four, at most kMaxRemeshLevels
+  /// Where given, only edges are cut, and faces with them, from which the original is further away than this
+  /// in any frame, at their middle or that of a face beside them; in the mesh's units.
+  std::optional<double> largest_distance;
+};
+
+inline constexpr std::uint32_t kMaxRemeshLevels = 10;
+
+/// A mesh whose connectivity comes from cutting the faces of a simplified one, without T-vertices, and whose
+/// vertices lie on the original.
+struct Remesh {
+  Mesh mesh;                         ///< the simplified mesh's vertices come first, in its order
+  std::vector<SurfacePlace> places;  ///< [vertex] in a face of the original: see positions_of()
+};
+
+/// Cuts up the last, and smallest, mesh of a simplification of `mesh`. `frames` are those it was simplified
+/// by, or some of them; none are needed without a largest distance. kInvalidArgument for options out of
+/// range, for a mesh or frames of a wrong size, and where there would be more faces than a mesh can have.
+Result<Remesh> remesh(const Simplification& simplification, const Mesh& mesh,
+                      std::span<const FramePositions> frames, const RemeshOptions& options);
 
 }  // namespace tvg
