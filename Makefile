@@ -13,7 +13,7 @@ define BUILD
 @if [ -t 1 ]; then cmake --build $(1) $(2); else cmake --build $(1) $(2) -- --quiet; fi
 endef
 
-.PHONY: build demo test bench format check-format lint sanitize fuzz portability clean
+.PHONY: build demo test bench figures format check-format lint sanitize fuzz portability clean
 .NOTPARALLEL:
 
 build:
@@ -33,6 +33,14 @@ bench:
 	@$(CONFIGURE) bench >/dev/null
 	$(call BUILD,build/bench,--target tvg_bench)
 	@build/bench/bench/tvg_bench
+
+# The paper's figures, and the comparison of simplifiers that goes with them; real sequences come from TVG_DATA_DIR.
+figures: build
+	@scripts/install_packages.sh test bench
+	@scripts/figures.sh build/release docs/pictures
+	@$(CONFIGURE) bench >/dev/null
+	$(call BUILD,build/bench,--target tvg_simplifiers)
+	@build/bench/bench/tvg_simplifiers -o bench/simplify
 
 format:
 	@scripts/install_packages.sh check

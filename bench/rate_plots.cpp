@@ -1,9 +1,9 @@
 #include "bench/other_codecs.hpp"
 #include "bench/published_rates.hpp"
-#include "bench/rate_picture.hpp"
 #include "bench/rates.hpp"
 #include "bench/sequences.hpp"
 #include "tool/atomic_file.hpp"
+#include "tool/line_plot.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -90,14 +90,14 @@ void print_table(const std::string& name, const std::vector<MeasuredCurve>& curv
 
 void write_picture(const std::string& path, const std::string& title, const std::string& label,
                    const std::vector<MeasuredCurve>& curves, double Measured::*error) {
-  std::vector<PictureCurve> lines;
+  cli::LinePlot plot{title + ": bits per vertex and frame, whole file", {label, true}, {"", true}, {}};
   for (const MeasuredCurve& curve : curves) {
-    PictureCurve picture{curve.name, {}};
-    for (const Measured& point : curve.points) picture.points.push_back({point.*error, point.rate});
-    lines.push_back(std::move(picture));
+    cli::PlotCurve line{curve.name, {}};
+    for (const Measured& point : curve.points) line.points.emplace_back(point.*error, point.rate);
+    plot.curves.push_back(std::move(line));
   }
   cli::AtomicFile file(path);
-  file.write(rate_picture(title, label, lines));
+  file.write(cli::plot_svg({plot}));
   file.finish();
 }
 

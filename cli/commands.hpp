@@ -12,6 +12,7 @@ namespace tvg::cli {
 void add_encode_command(CLI::App& tool);
 void add_join_command(CLI::App& tool);
 void add_measure_command(CLI::App& tool);
+void add_simplify_command(CLI::App& tool);
 
 // Commands that read streams: decoder/.
 void add_decode_command(CLI::App& tool);

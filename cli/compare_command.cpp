@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/surface_report.hpp"
 #include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "tool/mesh_format.hpp"
@@ -8,7 +9,7 @@
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -26,6 +27,8 @@ struct CompareArguments {
   std::string clip;
   std::string fps;
   std::uint32_t hausdorff_stride = 0;
+  std::uint32_t samples = SurfaceSettings().samples;
+  bool surfaces = false;
   bool json = false;
   bool quiet = false;
 };
@@ -70,26 +73,41 @@ Result<bool> read(FrameSource& source, FramePositions& frame) {
   return read;
 }
 
-ComparisonReport compare(const CompareArguments& arguments) {
+/// The faces, whatever their order and whichever corner comes first: a stream does not keep either.
+std::vector<Face> faces_of(const Mesh& mesh) {
+  std::vector<Face> faces = mesh.faces;
+  for (Face& face : faces) std::sort(face.begin(), face.end());
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+bool same_connectivity(const Mesh& a, const Mesh& b) {
+  return a.vertex_count == b.vertex_count && faces_of(a) == faces_of(b);
+}
+
+/// The two sides of a comparison.
+struct Sides {
+  std::unique_ptr<FrameSource> original, decoded;
+};
+
+Sides open_sides(const CompareArguments& arguments) {
   if (!arguments.fps.empty()) static_cast<void>(parse_rate(arguments.fps));
-  const auto decoded = open_side(arguments.decoded, arguments, arguments.fps);
-  const auto original =
-      open_side(arguments.original, arguments, arguments.fps.empty() ? rate_of(*decoded) : arguments.fps);
-  const std::uint32_t vertices = original->mesh().vertex_count;
-  if (decoded->mesh().vertex_count != vertices) {
-    throw ToolError(
-        ExitStatus::kInvalidInput,
-        fmt::format("{} has {} vertices and {} has {}: only frames of one mesh can be compared",
-                    arguments.original, vertices, arguments.decoded, decoded->mesh().vertex_count));
-  }
-  SequenceComparison comparison(original->mesh(),
-                                {arguments.hausdorff_stride > 0, std::max(1u, arguments.hausdorff_stride)});
-  FramePositions a(3 * std::size_t{vertices});
-  FramePositions b(a.size());
+  Sides sides;
+  sides.decoded = open_side(arguments.decoded, arguments, arguments.fps);
+  sides.original = open_side(arguments.original, arguments,
+                             arguments.fps.empty() ? rate_of(*sides.decoded) : arguments.fps);
+  return sides;
+}
+
+/// Frame after frame of both sides into a comparison of either kind.
+template <class Comparison>
+void compare(const Sides& sides, const CompareArguments& arguments, Comparison& comparison) {
+  FramePositions a(3 * std::size_t{sides.original->mesh().vertex_count});
+  FramePositions b(3 * std::size_t{sides.decoded->mesh().vertex_count});
   ProgressBar bar("comparing", arguments.quiet);
   for (std::uint64_t frame = 0;; ++frame) {
-    const bool more_a = *read(*original, a);
-    const bool more_b = *read(*decoded, b);
+    const bool more_a = *read(*sides.original, a);
+    const bool more_b = *read(*sides.decoded, b);
     if (more_a != more_b) {
       throw ToolError(
           ExitStatus::kInvalidInput,
@@ -99,13 +117,8 @@ ComparisonReport compare(const CompareArguments& arguments) {
     if (!more_a) break;
     if (Status status = comparison.add_frame(a, b); !status.ok())
       throw tool_error(arguments.decoded, status.error());
-    bar.update(frame + 1, original->frame_count());
+    bar.update(frame + 1, sides.original->frame_count());
   }
-  return comparison.report();
-}
-
-nlohmann::json finite_or_null(double value) {
-  return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json();
 }
 
 void print_json(const ComparisonReport& report) {
@@ -143,13 +156,10 @@ void print_json(const ComparisonReport& report) {
 void print_text(const ComparisonReport& report) {
   fmt::print("{} frames of {} vertices, bounding box diagonal {:.6g}\n", report.frames, report.vertices,
              report.diagonal);
-  const auto line = [](const char* name, double value, double relative) {
-    fmt::print("  {:<24}{:>14.6g}{:>12.5f} % of the diagonal\n", name, value, 100 * relative);
-  };
-  line("maximum, coordinate", report.max_coordinate_error, report.relative_max_coordinate_error);
-  line("maximum, vertex", report.max_vertex_distance, report.relative_max_vertex_distance);
-  line("RMS, coordinate", report.rms_coordinate_error, report.relative_rms_coordinate_error);
-  line("RMS, vertex", report.rms_vertex_distance, report.relative_rms_vertex_distance);
+  print_distance("maximum, coordinate", report.max_coordinate_error, report.relative_max_coordinate_error);
+  print_distance("maximum, vertex", report.max_vertex_distance, report.relative_max_vertex_distance);
+  print_distance("RMS, coordinate", report.rms_coordinate_error, report.relative_rms_coordinate_error);
+  print_distance("RMS, vertex", report.rms_vertex_distance, report.relative_rms_vertex_distance);
   fmt::print("  {:<24}{:>14}\n", "worst",
              fmt::format("frame {} vertex {}", report.worst_frame, report.worst_vertex));
   fmt::print("  {:<24}{:>14.2f} dB\n", "SNR", report.snr_db);
@@ -159,16 +169,33 @@ void print_text(const ComparisonReport& report) {
   fmt::print("  {:<24}{:>14.6g} spatial {:.6g}, temporal {:.6g}\n", "STED", report.sted, report.sted_spatial,
              report.sted_temporal);
   if (report.hausdorff) {
-    line("Hausdorff", *report.hausdorff, report.relative_hausdorff.value_or(0));
+    print_distance("Hausdorff", *report.hausdorff, report.relative_hausdorff.value_or(0));
     fmt::print("  {:<24}{:>14} frames\n", "  measured at", report.hausdorff_frames);
   }
+}
+
+void run_compare(const CompareArguments& arguments) {
+  const Sides sides = open_sides(arguments);
+  const std::uint32_t stride = std::max(1u, arguments.hausdorff_stride);
+  if (arguments.surfaces || !same_connectivity(sides.original->mesh(), sides.decoded->mesh())) {
+    SurfaceComparison comparison(sides.original->mesh(), sides.decoded->mesh(), {arguments.samples, stride});
+    compare(sides, arguments, comparison);
+    arguments.json ? print_surface_json(comparison.report()) : print_surface_report(comparison.report());
+    return;
+  }
+  SequenceComparison comparison(sides.original->mesh(), {arguments.hausdorff_stride > 0, stride});
+  compare(sides, arguments, comparison);
+  arguments.json ? print_json(comparison.report()) : print_text(comparison.report());
 }
 
 }  // namespace
 
 void add_compare_command(CLI::App& tool) {
   auto arguments = std::make_shared<CompareArguments>();
-  CLI::App& command = *tool.add_subcommand("compare", "Measure how far decoded frames lie from the original");
+  CLI::App& command =
+      *tool.add_subcommand("compare",
+                           "Measure how far decoded frames lie from the original, vertex by vertex, "
+                           "or surface from surface where the meshes differ");
   command
       .add_option("original", arguments->original, "a cache, a sequence of mesh files, a scene, or a .tvg")
       ->required();
@@ -181,15 +208,22 @@ void add_compare_command(CLI::App& tool) {
   command.add_option("--fps", arguments->fps,
                      "sample a scene at this rate (default: that of the decoded stream)");
   command
-      .add_option("--hausdorff", arguments->hausdorff_stride,
-                  "also measure the Hausdorff distance between the surfaces, at every Nth frame (slow)")
+      .add_option(
+          "--hausdorff", arguments->hausdorff_stride,
+          "also measure the Hausdorff distance between the surfaces, at every Nth frame (slow); where "
+          "the meshes differ, take every Nth frame alone (default: every one)")
       ->check(CLI::PositiveNumber);
+  command.add_flag("--surfaces", arguments->surfaces,
+                   "compare as surfaces even where the meshes are the same: root mean square and Hausdorff "
+                   "distance, in both directions");
+  command
+      .add_option("--samples", arguments->samples,
+                  "points of each surface that are held against the other, spread by area")
+      ->check(CLI::Range(1u, 100000000u))
+      ->capture_default_str();
   command.add_flag("--json", arguments->json, "print the figures as JSON");
   command.add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-  command.callback([arguments] {
-    const ComparisonReport report = compare(*arguments);
-    arguments->json ? print_json(report) : print_text(report);
-  });
+  command.callback([arguments] { run_compare(*arguments); });
 }
 
 }  // namespace tvg::cli

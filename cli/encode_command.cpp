@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/input_options.hpp"
+#include "cli/level_options.hpp"
 #include "cli/measure_options.hpp"
 #include "encoder/live/live_encoding.hpp"
 #include "encoder/live/stream_output.hpp"
@@ -34,6 +35,7 @@ struct EncodeArguments : InputArguments {
   std::string bits = "11";
   std::string step;
   MeasureArguments measure;
+  LevelArguments levels;
   std::string predictor = "elp";
   std::string mode = "elp";
   bool lossless = false;
@@ -196,6 +198,12 @@ void run_encode(const EncodeArguments& arguments) {
   options.first_frame = opened.first_frame;
   check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
   if (!arguments.quiet) print_notes(opened);
+  LevelArguments levels = arguments.levels;
+  levels.quiet = arguments.quiet;
+  if (arguments.live && levels.any())
+    throw ToolError(ExitStatus::kUsage,
+                    "--levels simplify and --lod need all frames in advance: not with --live");
+  options.levels = simplified_levels(*opened.source, levels, options.importance, input_names(arguments));
   std::optional<LiveInput> live;
   if (arguments.live) live = live_input(arguments, opened.source->metadata());
 
@@ -284,6 +292,7 @@ void add_encode_command(CLI::App& tool) {
       .add_option("--gop", arguments->gop,
                   "frames that can be decoded on their own (default 50; in mode basis 32; with --live 15)")
       ->check(CLI::Range(1, 65536));
+  add_level_options(command, arguments->levels);
   command.add_flag("--reorder", arguments->reorder,
                    "give up the vertex order, which saves about a byte per vertex");
   command.add_option("--fps", arguments->fps,

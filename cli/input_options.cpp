@@ -4,6 +4,8 @@
 #include "encoder/importers/skeleton_file.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
+#include "tool/stream_source.hpp"
+#include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -67,6 +69,24 @@ OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
     opened.first_frame = spec.frames->first;
   }
   static_cast<OpenedSource&>(opened) = open_with_joints(std::move(spec), arguments.skeleton);
+  return opened;
+}
+
+OpenedInput open_input_or_stream(const InputArguments& input) {
+  if (input.inputs.size() != 1 || !is_stream_file(input.inputs.front())) return open_input(input, false);
+  for (const auto& [option, given] :
+       {std::pair("--frames", !input.frames.empty()), std::pair("--clip", !input.clip.empty()),
+        std::pair("--mesh", !input.meshes.empty()), std::pair("--fps", !input.fps.empty())}) {
+    if (given) {
+      throw ToolError(ExitStatus::kUsage,
+                      fmt::format("{}: not for a .tvg, whose frames are taken as they are", option));
+    }
+  }
+  OpenedInput opened;
+  opened.source = std::make_unique<StreamSource>(input.inputs.front());
+  if (input.skeleton.empty()) return opened;
+  opened.source =
+      with_joints(std::move(opened.source), read_stream_joints(input.skeleton), input.skeleton, 0);
   return opened;
 }
 

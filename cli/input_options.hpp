@@ -50,6 +50,10 @@ JointTracks read_stream_joints(const std::string& skeleton);
 /// SourceSpec.
 OpenedInput open_input(const InputArguments& arguments, bool open_ended);
 
+/// Opens the inputs, or a .tvg with the joints of --skeleton, which takes no other of these options. Throws
+/// as open_input() and read_stream_joints() do.
+OpenedInput open_input_or_stream(const InputArguments& arguments);
+
 /// The inputs, for messages: "hand.obj, hand.pc2".
 std::string input_names(const InputArguments& arguments);
 

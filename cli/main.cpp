@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   add_verify_command(tool);
   add_compare_command(tool);
   add_measure_command(tool);
+  add_simplify_command(tool);
   add_join_command(tool);
 #ifdef TVG_HAS_PLAYER
   add_play_command(tool);

@@ -4,13 +4,11 @@
 #include "cli/measure_report.hpp"
 #include "cli/measured_ply.hpp"
 #include "cli/number_option.hpp"
-#include "encoder/importers/skeleton_file.hpp"
 #include "tool/frame_pattern.hpp"
 #include "tool/measured_frame.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
-#include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
 #ifdef TVG_HAS_PLAYER
 #include "cli/look_options.hpp"
@@ -51,25 +49,6 @@ struct MeasureCommandArguments {
   }
 };
 
-/// The inputs, or a .tvg with the joints of --skeleton.
-OpenedInput open(const InputArguments& input) {
-  if (input.inputs.size() != 1 || !is_stream_file(input.inputs.front())) return open_input(input, false);
-  for (const auto& [option, given] :
-       {std::pair("--frames", !input.frames.empty()), std::pair("--clip", !input.clip.empty()),
-        std::pair("--mesh", !input.meshes.empty()), std::pair("--fps", !input.fps.empty())}) {
-    if (given) {
-      throw ToolError(ExitStatus::kUsage,
-                      fmt::format("{}: not for a .tvg, whose frames are measured as they are", option));
-    }
-  }
-  OpenedInput opened;
-  opened.source = std::make_unique<StreamSource>(input.inputs.front());
-  if (input.skeleton.empty()) return opened;
-  opened.source =
-      with_joints(std::move(opened.source), read_stream_joints(input.skeleton), input.skeleton, 0);
-  return opened;
-}
-
 /// Measures GOP after GOP, and shows the frames that are asked for as they pass.
 class MeasureJob {
  public:
@@ -82,7 +61,7 @@ class MeasureJob {
 #endif
         bar_("measuring", arguments.quiet) {
     check_outputs();
-    opened_ = open(arguments.input);
+    opened_ = open_input_or_stream(arguments.input);
     check_measure(arguments.measure, importance_, *opened_.source, arguments.input.inputs);
     if (!arguments.quiet) print_notes(opened_);
     choose_frame();

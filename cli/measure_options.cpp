@@ -20,17 +20,11 @@ namespace {
   throw ToolError(ExitStatus::kUsage, message);
 }
 
-std::string criterion_names() {
-  std::vector<std::string_view> names;
-  for (const CriterionDescription& criterion : criterion_descriptions()) names.push_back(criterion.name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-[[noreturn]] void fail_criteria(const std::string& text) {
+[[noreturn]] void fail_criteria(const std::string& option, const std::string& text) {
   fail_usage(
-      fmt::format("--measure {}: write criteria with their weights as curv or curv+0.5*skel-velocity; there "
+      fmt::format("{} {}: write criteria with their weights as curv or curv+0.5*skel-velocity; there "
                   "are {}",
-                  text, criterion_names()));
+                  option, text, criterion_names()));
 }
 
 /// The longest name of a criterion that `text` begins with: curvature-norm goes before curv, and
@@ -58,14 +52,20 @@ void set_option(const CriterionOption& option, const CostArguments& arguments, I
   const bool used = is_for(option, importance);
   if (given != arguments.options.end()) {
     if (used) return option.set(given->second, importance);
-    fail_usage(fmt::format("{} is for the criterion {}, which --measure {} does not use", option.name,
-                           fmt::join(option.criteria, " or "), arguments.criteria));
+    fail_usage(fmt::format("{} is for the criterion {}, which {} {} does not use", option.name,
+                           fmt::join(option.criteria, " or "), arguments.option, arguments.criteria));
   }
   if (!used || option.missing == nullptr) return;
-  fail_usage(fmt::format("--measure {}: {}", arguments.criteria, option.missing));
+  fail_usage(fmt::format("{} {}: {}", arguments.option, arguments.criteria, option.missing));
 }
 
 }  // namespace
+
+std::string criterion_names() {
+  std::vector<std::string_view> names;
+  for (const CriterionDescription& criterion : criterion_descriptions()) names.push_back(criterion.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 bool CostArguments::any() const {
   return criteria != "curv" || !options.empty() || smoothing;
@@ -80,24 +80,24 @@ bool MeasureArguments::any() const {
   return CostArguments::any() || !important.empty() || threshold || !lookahead.empty();
 }
 
-std::vector<CriterionWeight> parse_criteria(const std::string& text) {
+std::vector<CriterionWeight> parse_criteria(const std::string& text, const std::string& option) {
   std::vector<CriterionWeight> criteria;
   std::string_view rest = text;
   while (!rest.empty() || criteria.empty()) {
     const bool has_sign = rest.starts_with('+') || rest.starts_with('-');
-    if (!has_sign && !criteria.empty()) fail_criteria(text);
+    if (!has_sign && !criteria.empty()) fail_criteria(option, text);
     double weight = rest.starts_with('-') ? -1 : 1;
     if (has_sign) rest.remove_prefix(1);
     double factor = 1;
     const auto [after, error] = std::from_chars(rest.data(), rest.data() + rest.size(), factor);
     if (error == std::errc() && factor >= 0 && std::isfinite(factor)) {
       rest.remove_prefix(static_cast<std::size_t>(after - rest.data()));
-      if (!rest.starts_with('*')) fail_criteria(text);
+      if (!rest.starts_with('*')) fail_criteria(option, text);
       rest.remove_prefix(1);
       weight *= factor;
     }
     const std::string_view name = leading_name(rest);
-    if (name.empty()) fail_criteria(text);
+    if (name.empty()) fail_criteria(option, text);
     rest.remove_prefix(name.size());
     criteria.push_back({std::string(name), weight});
   }
@@ -111,6 +111,10 @@ void add_cost_options(CLI::App& command, CostArguments& arguments) {
                               "=-distance where the first is negative; {}",
                               criterion_names()))
       ->capture_default_str();
+  add_criterion_options(command, arguments);
+}
+
+void add_criterion_options(CLI::App& command, CostArguments& arguments) {
   for (const CriterionOption& option : criterion_options()) {
     const auto keep = [&arguments, name = option.name](const std::string& text) {
       arguments.options[name] = text;
@@ -144,7 +148,7 @@ void add_measure_options(CLI::App& command, MeasureArguments& arguments) {
 
 Importance importance_of(const CostArguments& arguments) {
   Importance importance;
-  importance.criteria = parse_criteria(arguments.criteria);
+  importance.criteria = parse_criteria(arguments.criteria, arguments.option);
   importance.smoothing = arguments.smoothing.value_or(importance.smoothing);
   for (const CriterionOption& option : criterion_options()) set_option(option, arguments, importance);
   return importance;
@@ -175,9 +179,9 @@ void check_measure(const CostArguments& arguments, const Importance& importance,
                    const std::vector<std::string>& inputs) {
   if (uses_skeleton(importance) && source.skeleton().empty()) {
     fail_usage(
-        fmt::format("--measure {}: {} has no skeleton: a rigged scene (glTF, FBX, COLLADA and others) brings "
+        fmt::format("{} {}: {} has no skeleton: a rigged scene (glTF, FBX, COLLADA and others) brings "
                     "one, and --skeleton names the file of one for other inputs",
-                    arguments.criteria, fmt::join(inputs, ", ")));
+                    arguments.option, arguments.criteria, fmt::join(inputs, ", ")));
   }
   if (importance.skel.region == JointRegion::kHeaviest && source.skeleton().heaviest_joint.empty()) {
     fail_usage(fmt::format("--skel-region weights: {} has no skin weights; use --skel-region nearest",

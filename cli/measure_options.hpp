@@ -17,6 +17,7 @@ namespace tvg::cli {
 
 /// What the cost of a vertex is: values of the options as typed.
 struct CostArguments {
+  std::string option = "--measure";  ///< what names the criteria, for messages
   std::string criteria = "curv";
   std::map<std::string, std::string> options;  ///< of criterion_options(), by their names: those given
   std::optional<std::uint32_t> smoothing;
@@ -39,11 +40,17 @@ struct MeasureArguments : CostArguments {
 
 /// Declares --measure, the options of its criteria and --smooth; `arguments` must outlive the parsing.
 void add_cost_options(CLI::App& command, CostArguments& arguments);
+/// The same without --measure, for a command that asks for the criteria in its own words.
+void add_criterion_options(CLI::App& command, CostArguments& arguments);
 /// These, and --important and the like.
 void add_measure_options(CLI::App& command, MeasureArguments& arguments);
 
-/// "curv+0.5*skel-velocity": criteria and their weights. Throws ToolError (kUsage) that names the criteria.
-std::vector<CriterionWeight> parse_criteria(const std::string& text);
+/// "curv+0.5*skel-velocity": criteria and their weights. Throws ToolError (kUsage) that names the criteria
+/// and the option they stand in.
+std::vector<CriterionWeight> parse_criteria(const std::string& text, const std::string& option = "--measure");
+
+/// "curv, skel, ...": every criterion there is.
+std::string criterion_names();
 
 /// What the options mean together; reads the file of --weights. Throws ToolError: kUsage for options that are
 /// wrong or do not belong to the criteria chosen, and as read_vertex_weights() does.

@@ -7,8 +7,8 @@
 
 namespace tvg::cli {
 
-ProgressBar::ProgressBar(std::string label, bool quiet)
-    : label_(std::move(label)), visible_(!quiet && isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(std::string label, bool quiet, std::string unit)
+    : label_(std::move(label)), unit_(std::move(unit)), visible_(!quiet && isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
   clear();
@@ -29,12 +29,12 @@ void ProgressBar::update(std::uint64_t done, std::optional<std::uint64_t> total)
   last_ = now;
   drawn_ = true;
   if (!total || *total == 0) {
-    fmt::print(stderr, "\r{} {} frames\x1b[K", label_, done);
+    fmt::print(stderr, "\r{} {} {}\x1b[K", label_, done, unit_);
   } else {
     constexpr std::uint64_t kWidth = 30;
     const std::uint64_t filled = std::min(kWidth, kWidth * done / *total);
-    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} frames\x1b[K", label_, "", filled, "", kWidth - filled,
-               done, *total);
+    fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {}/{} {}\x1b[K", label_, "", filled, "", kWidth - filled, done,
+               *total, unit_);
   }
   std::fflush(stderr);
 }

@@ -10,12 +10,13 @@ namespace tvg::cli {
 /// a few times a second at most and erased in the end.
 class ProgressBar {
  public:
-  ProgressBar(std::string label, bool quiet);
+  /// `unit`: what is counted.
+  ProgressBar(std::string label, bool quiet, std::string unit = "frames");
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` of `total` frames; without a total only the count is shown.
+  /// `done` of `total`; without a total only the count is shown.
   void update(std::uint64_t done, std::optional<std::uint64_t> total);
 
   /// Erases the bar, so that other text can take its line; the next update draws it again.
@@ -23,6 +24,7 @@ class ProgressBar {
 
  private:
   std::string label_;
+  std::string unit_;
   bool visible_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point last_{};

@@ -1,13 +1,11 @@
 #pragma once
-#include <Eigen/Core>
+#include "metrics/surface_index.hpp"
+
 #include <span>
-#include <vector>
 
 #include <tvg/types.hpp>
 
 namespace tvg {
-
-using Points = std::vector<Eigen::Vector3d>;
 
 /// The largest distance from a sample of the surface (faces, from) to the surface (faces, to): exact for
 /// these samples, every vertex that a face uses and every face's centroid. `faces` must not be empty, its

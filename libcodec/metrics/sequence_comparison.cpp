@@ -1,4 +1,5 @@
 #include "base/errors.hpp"
+#include "metrics/frame_checks.hpp"
 #include "metrics/hausdorff.hpp"
 #include "metrics/sted.hpp"
 
@@ -14,42 +15,24 @@
 #include <tvg/metrics.hpp>
 
 namespace tvg {
-namespace {
-
 using Eigen::Vector3d;
-
-double ratio(double value, double divisor) {
-  if (value == 0) return 0;
-  return divisor > 0 ? value / divisor : std::numeric_limits<double>::infinity();
-}
-
-void load(std::span<const float> values, Points& points) {
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    points[v] = Vector3d(values[3 * v], values[3 * v + 1], values[3 * v + 2]);
-  }
-}
-
-}  // namespace
 
 class SequenceComparison::Accumulator {
  public:
   Accumulator(const Mesh& mesh, const ComparisonSettings& settings)
       : mesh_(mesh),
         settings_(settings),
+        mesh_is_valid_(faces_are_valid(mesh)),
         original_(mesh.vertex_count),
         decoded_(mesh.vertex_count),
-        quadric_(mesh.vertex_count) {
-    for (const Face& face : mesh_.faces) {
-      for (const std::uint32_t v : face) mesh_is_valid_ = mesh_is_valid_ && v < mesh_.vertex_count;
-    }
-  }
+        quadric_(mesh.vertex_count) {}
 
   Status add_frame(std::span<const float> original, std::span<const float> decoded) {
     Status checked = check(original, decoded);
     if (!checked.ok()) return checked;
     box_.extend(original);
-    load(original, original_);
-    load(decoded, decoded_);
+    load_points(original, original_);
+    load_points(decoded, decoded_);
     add_distances();
     add_spread();
     add_quadrics();
@@ -65,26 +48,16 @@ class SequenceComparison::Accumulator {
 
  private:
   Status check(std::span<const float> original, std::span<const float> decoded) const {
-    const std::size_t expected = std::size_t{3} * mesh_.vertex_count;
     if (settings_.hausdorff_stride == 0) {
       return at_frame(frames_, invalid_argument("the stride of the Hausdorff distance must be at least 1"));
-    }
-    if (original.size() != expected || decoded.size() != expected) {
-      return at_frame(frames_,
-                      invalid_argument("a frame of this mesh has " + std::to_string(expected) +
-                                       " coordinates; got " + std::to_string(original.size()) +
-                                       " (original) and " + std::to_string(decoded.size()) + " (decoded)"));
     }
     if (!mesh_is_valid_) {
       return at_frame(frames_, invalid_input("a face of the mesh names a vertex that does not exist"));
     }
-    const auto is_finite = [](float value) { return std::isfinite(value); };
-    for (const auto& frame : {original, decoded}) {
-      const auto bad = std::find_if_not(frame.begin(), frame.end(), is_finite);
-      if (bad == frame.end()) continue;
-      const auto vertex = static_cast<std::uint64_t>(bad - frame.begin()) / 3;
-      return at_frame(frames_, invalid_input("vertex " + std::to_string(vertex) +
-                                             " has a coordinate that is infinite or not a number"));
+    for (const auto& [frame, name] :
+         {std::pair(original, "original"), std::pair(decoded, "decoded frames")}) {
+      if (Status checked = check_positions(mesh_, frame, name); !checked.ok())
+        return at_frame(frames_, checked.error());
     }
     return {};
   }
@@ -145,7 +118,7 @@ class SequenceComparison::Accumulator {
 
   Mesh mesh_;
   ComparisonSettings settings_;
-  bool mesh_is_valid_ = true;
+  bool mesh_is_valid_;
   Points original_, decoded_;            ///< the present frame
   std::vector<double> quadric_;          ///< [vertex], of the present frame
   std::optional<EdgeDifference> edges_;  ///< made when the mesh has been found valid
@@ -177,14 +150,14 @@ ComparisonReport SequenceComparison::Accumulator::report() const {
   report.rms_coordinate_error = std::sqrt(sum_squared_ / (3 * points));
   report.rms_vertex_distance = std::sqrt(sum_squared_ / points);
   report.mean_coordinate_error = sum_absolute_ / (3 * points);
-  report.relative_max_coordinate_error = ratio(report.max_coordinate_error, report.diagonal);
-  report.relative_max_vertex_distance = ratio(report.max_vertex_distance, report.diagonal);
-  report.relative_rms_coordinate_error = ratio(report.rms_coordinate_error, report.diagonal);
-  report.relative_rms_vertex_distance = ratio(report.rms_vertex_distance, report.diagonal);
+  report.relative_max_coordinate_error = share(report.max_coordinate_error, report.diagonal);
+  report.relative_max_vertex_distance = share(report.max_vertex_distance, report.diagonal);
+  report.relative_rms_coordinate_error = share(report.rms_coordinate_error, report.diagonal);
+  report.relative_rms_vertex_distance = share(report.rms_vertex_distance, report.diagonal);
   report.worst_frame = worst_frame_;
   report.worst_vertex = worst_vertex_;
   report.snr_db = signal_to_noise(report.mean_coordinate_error, report.extent);
-  report.kg_percent = 100 * ratio(std::sqrt(sum_squared_), std::sqrt(spread_));
+  report.kg_percent = 100 * share(std::sqrt(sum_squared_), std::sqrt(spread_));
   report.mean_quadric_error = sum_quadric_ / points;
   report.max_quadric_error = max_quadric_;
   report.sted = edges_->combined();
@@ -193,7 +166,7 @@ ComparisonReport SequenceComparison::Accumulator::report() const {
   report.hausdorff_frames = hausdorff_frames_;
   if (hausdorff_frames_ > 0) {
     report.hausdorff = std::max(forward_, backward_);
-    report.relative_hausdorff = ratio(*report.hausdorff, report.diagonal);
+    report.relative_hausdorff = share(*report.hausdorff, report.diagonal);
     report.hausdorff_original_to_decoded = forward_;
     report.hausdorff_decoded_to_original = backward_;
   }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <tvg/types.hpp>
 
@@ -96,6 +97,92 @@ class SequenceComparison {
   class Accumulator;
   std::unique_ptr<Accumulator> accumulator_;
 };
+
+struct SurfaceSettings {
+  /// Points of each surface that are held against the other: spread over its faces by their area, evenly, the
+  /// same ones in every run. At least 1.
+  std::uint32_t samples = 10000;
+  /// Frames whose number is a multiple of this are measured; at least 1.
+  std::uint32_t stride = 1;
+};
+
+/// How far two surfaces are apart in one frame, in the meshes' units. Each point of a surface is as far from
+/// the other as the nearest point there, wherever that lies in the mesh.
+struct SurfaceDistances {
+  std::uint64_t frame = 0;
+  double rms_to_other = 0;        ///< root mean square over the samples of the original
+  double rms_to_original = 0;     ///< the same over the samples of the other
+  double hausdorff_to_other = 0;  ///< the largest over the original's samples and vertices in use
+  double hausdorff_to_original = 0;
+
+  /// The larger of the two directions.
+  double rms() const { return rms_to_other > rms_to_original ? rms_to_other : rms_to_original; }
+  double hausdorff() const {
+    return hausdorff_to_other > hausdorff_to_original ? hausdorff_to_other : hausdorff_to_original;
+  }
+};
+
+/// Distances are in the meshes' units; `relative_*` are divided by `diagonal`, as those of ComparisonReport.
+struct SurfaceReport {
+  std::uint64_t frames = 0;  ///< taken; with none measured, all figures are 0
+  std::uint32_t original_vertices = 0, other_vertices = 0;
+  std::uint64_t original_faces = 0, other_faces = 0;
+  double diagonal = 0;  ///< of the bounding box over all frames of the original
+
+  double rms = 0;        ///< root mean square over all frames measured, of the direction where it is larger
+  double worst_rms = 0;  ///< the largest rms() of a frame
+  double mean_hausdorff = 0;  ///< the mean of hausdorff() over the frames measured
+  double hausdorff = 0;       ///< the largest of a frame
+  double relative_rms = 0, relative_worst_rms = 0, relative_mean_hausdorff = 0, relative_hausdorff = 0;
+  std::uint64_t worst_rms_frame = 0, worst_hausdorff_frame = 0;  ///< where they are largest first
+
+  std::vector<SurfaceDistances> measured;  ///< the frames measured
+};
+
+/// Compares two sequences frame by frame that show the same thing with different meshes: only the surfaces
+/// count, not their vertices.
+class SurfaceComparison {
+ public:
+  SurfaceComparison(const Mesh& original, const Mesh& other, const SurfaceSettings& settings = {});
+  ~SurfaceComparison();
+  SurfaceComparison(SurfaceComparison&&) noexcept;
+  SurfaceComparison& operator=(SurfaceComparison&&) noexcept;
+
+  /// The mesh of the other side's frames that follow, where it changes.
+  void set_other(const Mesh& other);
+
+  /// Takes the next frame of both: float32 [vertex][xyz] of the mesh of each. Fails with kInvalidArgument
+  /// where a size or a setting is wrong, kInvalidInput where a position is not finite, or a mesh has no faces
+  /// or names a vertex it does not have; a frame that fails is not counted.
+  Status add_frame(std::span<const float> original, std::span<const float> other);
+
+  /// Whether add_frame() measures the next frame.
+  bool measures_next() const;
+
+  /// The figures over the frames taken so far.
+  SurfaceReport report() const;
+
+ private:
+  class Accumulator;
+  std::unique_ptr<Accumulator> accumulator_;
+};
+
+/// What is wrong with a surface in one frame.
+struct SurfaceFaults {
+  /// Pairs of faces with at most one vertex in common that pass through each other. Faces that only touch, or
+  /// overlap within one plane, do not.
+  std::uint64_t intersections = 0;
+  /// Edges of exactly two faces that are folded: the normals of the two, both faces turned the same way
+  /// round, are further apart than the angle asked for.
+  std::uint64_t folds = 0;
+
+  bool operator==(const SurfaceFaults&) const = default;
+};
+
+/// Counts the faults of a mesh with these positions [vertex][xyz]; faces without area have none. `fold` is in
+/// degrees, 0 to 180. kInvalidArgument where a size or the angle is wrong, kInvalidInput where a position is
+/// not finite or the mesh names a vertex it does not have.
+Result<SurfaceFaults> surface_faults(const Mesh& mesh, std::span<const float> positions, double fold = 150);
 
 /// Bits per coordinate of a file of so many bytes; 0 without coordinates.
 double bits_per_coordinate(std::uint64_t bytes, std::uint64_t vertices, std::uint64_t frames);
