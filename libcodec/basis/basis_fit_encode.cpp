@@ -45,11 +45,11 @@ class StepSearch {
     const double share = rough_error * shares_per_error_;
     return shares_per_error_ == 0 || (share > 0.95 && share < 1.02);
   }
-  static bool close(double share) { return share <= 1 && share > 0.988; }
+  static bool close(double share) { return share <= 1 && share > 0.982; }
 
  private:
   static constexpr double kAim = -0.004;  ///< logarithm of the share to aim at
-  static constexpr double kSlope = 0.6;   ///< of logarithms: the step by the squared error
+  static constexpr double kSlope = 0.53;  ///< of logarithms: the step by the squared error
   static constexpr double kLeast = 1e-30;
 
   struct Trial {
@@ -120,6 +120,7 @@ class Fitter {
         continue;
       }
       fit_rows(trajectories_, coefficients_, components_.rows, quality, fitted);
+      if (target_.largest_error) measure_errors(trajectories_, coefficients_, fitted);
       const double share = share_of_target(fitted);
       search.take(rough_error, share);
       if (share <= 1 ? best_share > 1 || fitted.step > best.step : share < best_share) {
@@ -128,6 +129,7 @@ class Fitter {
       }
       if (StepSearch::close(share)) break;
     }
+    measure_errors(trajectories_, coefficients_, best);
     return best;
   }
 

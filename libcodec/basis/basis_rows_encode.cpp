@@ -81,7 +81,7 @@ class RowRounding {
   }
 
   /// What rounding took from the mean, [3 frame + axis], in steps of the trajectories.
-  Eigen::Map<const Eigen::RowVectorXf> missed_means() const {
+  Eigen::Map<const Eigen::VectorXd> missed_means() const {
     return {missed_means_.data(), static_cast<Eigen::Index>(missed_means_.size())};
   }
 
@@ -141,7 +141,7 @@ class RowRounding {
         rows_(static_cast<Eigen::Index>(row - 1), static_cast<Eigen::Index>(i)) =
             static_cast<float>(multiple * unit);
       } else {
-        missed_means_.push_back(static_cast<float>((wanted - multiple * unit) * fitted_.step));
+        missed_means_.push_back((wanted - multiple * unit) * fitted_.step);
       }
     }
   }
@@ -150,7 +150,7 @@ class RowRounding {
   Eigen::MatrixXf& rows_;
   FittedBasis& fitted_;
   std::vector<double> most_;
-  std::vector<float> missed_means_;
+  std::vector<double> missed_means_;
 };
 
 }  // namespace
@@ -169,25 +169,68 @@ std::size_t row_bytes(const FittedBasis& fitted) {
   return bytes;
 }
 
+namespace {
+
+/// What rows that are off by this much add to a rest's squares: `gram` is of the planes with each other,
+/// `pull` theirs with the rest. Much less work than the rest itself.
+double squares_added(const Eigen::MatrixXd& gram, const Eigen::MatrixXf& pull, const Eigen::MatrixXd& off) {
+  return off.cwiseProduct(gram * off).sum() - 2 * off.cwiseProduct(pull.cast<double>()).sum();
+}
+
+}  // namespace
+
 void fit_rows(const Trajectories& trajectories, const Coefficients& coefficients, const Eigen::MatrixXf& rows,
               const CoefficientQuality& quality, FittedBasis& fitted) {
-  const Eigen::MatrixXf planes = quantized(coefficients, fitted);
-  Eigen::MatrixXf fitting = rows.leftCols(planes.cols()).transpose();
-  Eigen::MatrixXf rest = trajectories.weighted;
   std::vector<double> units = {std::sqrt(quality.thrift / trajectories.mean_weight())};
-  if (planes.cols() > 0) {
-    rest.noalias() -= planes * fitting;
-    Eigen::MatrixXd gram = (planes.transpose() * planes).cast<double>();
-    gram.diagonal().array() += fitted.step * fitted.step;  // a plane of zeros has no say
-    const Eigen::MatrixXf pull = planes.transpose() * rest;
-    fitting += gram.ldlt().solve(pull.cast<double>()).cast<float>();
-    for (Eigen::Index a = 0; a < planes.cols(); ++a) units.push_back(row_unit(quality, gram(a, a)));
+  Eigen::MatrixXf fitting;
+  if (fitted.coefficients.components == 0) {
+    RowRounding(trajectories, fitting, fitted).run(std::move(units));
+    measure_errors(trajectories, coefficients, fitted);
+    return;
   }
+  const Eigen::MatrixXf planes = quantized(coefficients, fitted);
+  const Eigen::MatrixXf unfitted = rows.leftCols(planes.cols()).transpose();
+  Eigen::MatrixXf rest = trajectories.weighted;
+  rest.noalias() -= planes * unfitted;
+  const Eigen::MatrixXf pull = planes.transpose() * rest;
+  Eigen::MatrixXf half_gram = Eigen::MatrixXf::Zero(planes.cols(), planes.cols());
+  half_gram.selfadjointView<Eigen::Lower>().rankUpdate(planes.transpose());
+  const Eigen::MatrixXd gram = half_gram.cast<double>().selfadjointView<Eigen::Lower>();
+  Eigen::MatrixXd damped = gram;
+  damped.diagonal().array() += fitted.step * fitted.step;  // a plane of zeros has no say
+  fitting = unfitted + damped.ldlt().solve(pull.cast<double>()).cast<float>();
+  for (Eigen::Index a = 0; a < planes.cols(); ++a) units.push_back(row_unit(quality, damped(a, a)));
   RowRounding rounding(trajectories, fitting, fitted);
   rounding.run(std::move(units));
-  rest = trajectories.weighted;
+  const Eigen::MatrixXd off = fitting.cast<double>() - unfitted.cast<double>();
+  const Eigen::VectorXf rest_by_weight = rest.transpose() * trajectories.weights,
+                        planes_by_weight = planes.transpose() * trajectories.weights;
+  const Eigen::VectorXd tilt =
+      rest_by_weight.cast<double>() - off.transpose() * planes_by_weight.cast<double>();
+  const auto missed = rounding.missed_means();
+  fitted.squared_error = rest.cast<double>().squaredNorm() + squares_added(gram, pull, off) +
+                         2 * missed.dot(tilt) + trajectories.mean_weight() * missed.squaredNorm();
+}
+
+void measure_errors(const Trajectories& trajectories, const Coefficients& coefficients, FittedBasis& fitted) {
+  const Eigen::MatrixXf planes = quantized(coefficients, fitted);
+  const std::size_t row_count = fitted.scales.size();
+  const auto value = [&](std::size_t row, std::size_t i) {
+    const double unit =
+        std::ldexp(static_cast<double>(RowScale{fitted.scales[row]}.factor()), -fitted.fraction_bits);
+    return unit * fitted.rows[3 * (i / 3 * row_count + row) + i % 3];
+  };
+  Eigen::MatrixXf fitting(planes.cols(), trajectories.weighted.cols());
+  Eigen::RowVectorXf missed_means(fitting.cols());
+  for (Eigen::Index i = 0; i < fitting.cols(); ++i) {
+    const auto column = static_cast<std::size_t>(i);
+    missed_means(i) = static_cast<float>(trajectories.mean[column] - fitted.step * value(0, column));
+    for (Eigen::Index a = 0; a < fitting.rows(); ++a)
+      fitting(a, i) = static_cast<float>(value(static_cast<std::size_t>(a) + 1, column));
+  }
+  Eigen::MatrixXf rest = trajectories.weighted;
   if (planes.cols() > 0) rest.noalias() -= planes * fitting;
-  rest.noalias() += trajectories.weights * rounding.missed_means();
+  rest.noalias() += trajectories.weights * missed_means;
   fitted.squared_error = rest.cast<double>().squaredNorm();
   fitted.largest_error = double{rest.cwiseAbs().maxCoeff()};
 }

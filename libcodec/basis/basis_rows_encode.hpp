@@ -28,8 +28,12 @@ double row_unit(const CoefficientQuality& quality, double energy);
 std::size_t row_bytes(const FittedBasis& fitted);
 
 /// Gives a fitted basis its rows: those which fit its coefficients as they were quantized, in the sense of
-/// least squares, for what was rounded to zero took something from all components. Measures what is missed.
+/// least squares, for what was rounded to zero took something from all components. Tells `squared_error` but
+/// for what is rounded off the mean.
 void fit_rows(const Trajectories& trajectories, const Coefficients& coefficients, const Eigen::MatrixXf& rows,
               const CoefficientQuality& quality, FittedBasis& fitted);
+
+/// Measures what a basis misses that has its rows: `squared_error` and `largest_error`.
+void measure_errors(const Trajectories& trajectories, const Coefficients& coefficients, FittedBasis& fitted);
 
 }  // namespace tvg

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace tvg {
 
@@ -111,63 +108,9 @@ void BasisSums::sum_plainly(const CoefficientPlanes& planes, const CoefficientPl
   }
 }
 
-#if defined(__SSE2__) && !defined(TVG_PLAIN_LANES)
-
-namespace {
-
-/// Sums of products of eight vertices: [half of the block][axis].
-struct Accumulator {
-  __m128i halves[2][3] = {};
-
-  void add(const CoefficientPlanes::PairBlock& pairs, const std::array<CoefficientPlanes::Pair, 4>& rows) {
-    const __m128i all = _mm_loadu_si128(reinterpret_cast<const __m128i*>(rows.data()));
-    const __m128i row[3] = {_mm_shuffle_epi32(all, 0x00), _mm_shuffle_epi32(all, 0x55),
-                            _mm_shuffle_epi32(all, 0xAA)};
-    for (std::size_t half = 0; half < 2; ++half) {
-      const __m128i values = _mm_loadu_si128(reinterpret_cast<const __m128i*>(pairs.data() + 4 * half));
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        halves[half][axis] = _mm_add_epi32(halves[half][axis], _mm_madd_epi16(values, row[axis]));
-    }
-  }
-
-  void store(std::int32_t (&sums)[3][8]) const {
-    for (std::size_t half = 0; half < 2; ++half) {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(sums[axis] + 4 * half), halves[half][axis]);
-    }
-  }
-};
-
-}  // namespace
-
-#else
-
-namespace {
-
-struct Accumulator {
-  std::int32_t sums_[3][8] = {};
-
-  void add(const CoefficientPlanes::PairBlock& pairs, const std::array<CoefficientPlanes::Pair, 4>& rows) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < 8; ++i)
-        sums_[axis][i] += pairs[i][0] * rows[axis][0] + pairs[i][1] * rows[axis][1];
-    }
-  }
-
-  void store(std::int32_t (&sums)[3][8]) const { std::copy_n(&sums_[0][0], 24, &sums[0][0]); }
-};
-
-}  // namespace
-
-#endif
-
 void BasisSums::sum_pairs(const CoefficientPlanes::PairBlock* pairs, SumBlock& sums) const {
-  Accumulator high, low;
-  for (std::size_t pair = 0; pair < high_.size(); ++pair) high.add(pairs[pair], high_[pair]);
-  for (const LowPair& part : low_) low.add(pairs[part.pair], part.rows);
-  std::int32_t upper[3][8], lower[3][8];
-  high.store(upper);
-  low.store(lower);
+  PairSums upper, lower;
+  add_pairs(pairs, high_, low_, upper, lower);
   const auto unit = static_cast<double>(std::int64_t{1} << low_bits_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto mean = static_cast<double>(mean_[axis]);

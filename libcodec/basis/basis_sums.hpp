@@ -1,6 +1,7 @@
 #pragma once
 #include "basis/basis_header.hpp"
 #include "basis/coefficient_planes.hpp"
+#include "basis/pair_sums.hpp"
 
 #include <array>
 #include <cstddef>
@@ -32,13 +33,6 @@ class BasisSums {
   void sum(const CoefficientPlanes& planes, std::size_t block, SumBlock& sums) const;
 
  private:
-  /// What two neighbouring components are multiplied by, for x, y and z.
-  using RowPair = std::array<CoefficientPlanes::Pair, 4>;
-  struct LowPair {
-    std::uint32_t pair;
-    RowPair rows;
-  };
-
   void split(const CoefficientPlanes& planes);
   void sum_pairs(const CoefficientPlanes::PairBlock* pairs, SumBlock& sums) const;
   void sum_plainly(const CoefficientPlanes& planes, const CoefficientPlanes::PairBlock* pairs,

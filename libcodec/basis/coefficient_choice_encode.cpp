@@ -36,15 +36,21 @@ class ResidualChooser {
 
   Quad operator()(const MagnitudeModels& models, const AdaptiveBit& stirs,
                   const CoefficientForecast& forecast) const {
+    std::array<float, CoefficientCoder::kPlanes> wanted{};
+    bool all_round_to_zero = true;
+    for (std::size_t j = 0; j < forecast.count; ++j) {
+      wanted[j] = coefficients_.values(static_cast<Eigen::Index>(forecast.vertex),
+                                       static_cast<Eigen::Index>(first_ + j)) *
+                      inverse_step_ -
+                  static_cast<float>(forecast.rounded[j]);
+      all_round_to_zero = all_round_to_zero && std::lrint(wanted[j]) == 0;
+    }
+    if (all_round_to_zero) return {};
     Quad best{};
     float cost_of_none = 0, cost_of_best = 0;
     for (std::size_t j = 0; j < forecast.count; ++j) {
-      const float wanted = coefficients_.values(static_cast<Eigen::Index>(forecast.vertex),
-                                                static_cast<Eigen::Index>(first_ + j)) *
-                               inverse_step_ -
-                           static_cast<float>(forecast.rounded[j]);
-      cost_of_none += wanted * wanted;
-      const auto [residual, cost] = cheapest(models, forecast.expected(j), wanted);
+      cost_of_none += wanted[j] * wanted[j];
+      const auto [residual, cost] = cheapest(models, forecast.expected(j), wanted[j]);
       best[j] = residual;
       cost_of_best += cost;
     }

@@ -140,7 +140,9 @@ class Surveyor {
     BasisHeader basis;
     ByteReader fields(reader_.plan().fields);
     if (entry.part > 0) {
-      basis = *header_of(static_cast<std::uint32_t>(entry.adds_to - 1));
+      const auto first = header_of(static_cast<std::uint32_t>(entry.adds_to - 1));
+      if (first == nullptr) return;  // gone as this came: no GOP can name both
+      basis = *first;
     } else if (const Fault fault = read_basis_header(fields, result_.head.limits, basis)) {
       reader_.reject(fault.code);
       find(error_of(fault));
@@ -165,15 +167,18 @@ class Surveyor {
     }
   }
 
-  /// What the plan of this name says, which is in force and can be used.
+  /// What the plan of this name says; null where nothing is known of it.
   std::shared_ptr<const BasisHeader> header_of(std::uint32_t plan) const {
-    return std::static_pointer_cast<const BasisHeader>(reader_.plans().find(plan)->content);
+    const ChunkWindow::Entry* const entry = reader_.plans().find(plan);
+    return entry == nullptr ? nullptr : std::static_pointer_cast<const BasisHeader>(entry->content);
   }
 
   Result<GopInfo> info_of(const GopHeader& header) const {
     if (header.mode == kModeBasis) {
       if (header.plane_count() == 0) return malformed("§7.8.1", "a GOP in mode basis names no planes");
-      return basis_gop_info(header, *header_of(ByteReader(header.planes).u32()));
+      const auto basis = header_of(ByteReader(header.planes).u32());
+      if (basis == nullptr) return malformed("§4.5.1", "a GOP in mode basis names other planes than a basis");
+      return basis_gop_info(header, *basis);
     }
     if (header.mode == kModeLossless) {
       LosslessHeader lossless;

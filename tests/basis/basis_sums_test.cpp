@@ -86,6 +86,31 @@ TEST(BasisSums, AreExactWhereSumsOfSixteenBitsDoNotFitThirtyTwo) {
   EXPECT_TRUE(check(basis));
 }
 
+TEST(BasisSums, AreTheSameInTheWidestInstructionsOfTheMachine) {
+  std::mt19937 random(11);
+  const auto pair = [&random] {
+    return CoefficientPlanes::Pair{static_cast<std::int16_t>(random()), static_cast<std::int16_t>(random())};
+  };
+  for (const std::size_t pairs : {0u, 1u, 2u, 17u}) {
+    std::vector<CoefficientPlanes::PairBlock> block(pairs);
+    std::vector<RowPair> high(pairs);
+    std::vector<LowPair> low;
+    for (std::size_t i = 0; i < pairs; ++i) {
+      for (CoefficientPlanes::Pair& values : block[i]) values = pair();
+      // Small enough that no sum leaves 32 bits.
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        high[i][axis] = {static_cast<std::int16_t>(random() % 2048),
+                         static_cast<std::int16_t>(random() % 2048)};
+      if (i % 3 == 0) low.push_back({static_cast<std::uint32_t>(i), high[i]});
+    }
+    PairSums upper, lower, plain_upper, plain_lower;
+    add_pairs(block.data(), high, low, upper, lower);
+    add_pairs_plainly(block.data(), high, low, plain_upper, plain_lower);
+    EXPECT_EQ(upper, plain_upper) << pairs;
+    EXPECT_EQ(lower, plain_lower) << pairs;
+  }
+}
+
 TEST(BasisSums, RefuseRowsWhoseSumsCouldLeaveBinary64) {
   RandomBasis basis(3, 2, 1, 1, 0, 9);
   basis.groups[0].assign(3, {1 << 20, 1, 0, 0});

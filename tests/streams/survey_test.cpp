@@ -1,6 +1,11 @@
 #include "tests/codec/codec_toolbox.hpp"
 #include "tests/conformance/streams.hpp"
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
 #include <tvg/survey.hpp>
 
 namespace tvg::test {
@@ -60,6 +65,23 @@ TEST(Survey, SaysWhatDecodingSays) {
       EXPECT_EQ(gop.bytes, other.bytes);
       EXPECT_EQ(gop.header_bytes, other.header_bytes);
       EXPECT_EQ(gop.flag_bytes, other.flag_bytes);
+    }
+  }
+}
+
+TEST(Survey, TakesWhatAnotherWriterMakes) {
+  for (const char* folder : {"random", "negative"}) {
+    const auto path = std::filesystem::path(TVG_CONFORMANCE_FOLDER) / folder;
+    for (const auto& entry : std::filesystem::directory_iterator(path)) {
+      if (entry.path().extension() != ".tvg") continue;
+      SCOPED_TRACE(entry.path().filename());
+      std::ifstream file(entry.path(), std::ios::binary);
+      const Stream stream{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+      const Surveyed surveyed = survey_stream(stream);
+      if (std::string(folder) != "random") continue;
+      ASSERT_TRUE(surveyed.result);
+      EXPECT_TRUE(surveyed.result->findings.empty());
+      EXPECT_EQ(surveyed.result->frames(), decode_stream(stream).frames.size());
     }
   }
 }
