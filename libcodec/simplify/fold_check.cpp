@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace tvg {
 namespace {
@@ -47,7 +48,8 @@ FoldCheck::FoldCheck(const MovingPositions& positions, double largest_turn)
       sum_(3 * positions.frame_count()),
       least_along_(positions.frame_count()),
       has_sum_(positions.frame_count()),
-      normal_(3 * positions.frame_count()) {}
+      star_folds_(positions.frame_count()),
+      folds_(positions.frame_count()) {}
 
 void FoldCheck::begin(std::uint32_t center, const Ring& ring) {
   center_ = center;
@@ -55,7 +57,6 @@ void FoldCheck::begin(std::uint32_t center, const Ring& ring) {
   const std::size_t frames = positions_.frame_count(), n = ring.size(), faces = ring.faces.size();
   star_.resize(faces * 3 * frames);
   across_.resize(faces * 3 * frames);
-  has_across_.assign(faces, 0);
   std::fill(sum_.begin(), sum_.end(), 0.0f);
   angles_.assign(faces, 0.0);
   radii_.assign(n, 0.0);
@@ -75,6 +76,7 @@ void FoldCheck::begin(std::uint32_t center, const Ring& ring) {
     angles_[i] /= static_cast<double>(frames);
   }
   judge_star();
+  count_star_folds();
 }
 
 void FoldCheck::judge_star() {
@@ -112,59 +114,85 @@ bool FoldCheck::allows_chord() const {
   return true;
 }
 
-bool FoldCheck::allows_face(const RingTriangle& triangle) {
+bool FoldCheck::allows_face(const RingTriangle& triangle, float* normal) const {
   const std::size_t frames = positions_.frame_count();
   const float* a = positions_.path(ring_->origins[triangle[0]]);
   const float* b = positions_.path(ring_->origins[triangle[1]]);
   const float* c = positions_.path(ring_->origins[triangle[2]]);
-  area_normals(a, b, c, frames, normal_.data());
+  area_normals(a, b, c, frames, normal);
   int bad = 0;
   for (std::size_t f = 0; f < frames; ++f) {
-    const float length = std::sqrt(dot(normal_.data(), normal_.data(), f, frames));
+    const float length = std::sqrt(dot(normal, normal, f, frames));
     const float longest = std::max({squared_distance(a, b, f, frames), squared_distance(b, c, f, frames),
                                     squared_distance(c, a, f, frames)});
     // Where the faces that go have no area there is nothing to turn away from.
-    const bool turned = dot(normal_.data(), sum_.data(), f, frames) < least_along_[f] * length;
+    const bool turned = dot(normal, sum_.data(), f, frames) < least_along_[f] * length;
     const bool thin = length <= kThinnestFace * longest;
     bad |= static_cast<int>(has_sum_[f]) & (static_cast<int>(turned) | static_cast<int>(thin));
   }
   return bad == 0;
 }
 
-bool FoldCheck::folds_over(std::size_t place) const {
+void FoldCheck::count_folds(const float* a, const float* b, double degrees, std::vector<int>& folds) const {
   const std::size_t frames = positions_.frame_count();
-  const float* beyond = across_.data() + place * 3 * frames;
-  const float* before = star_.data() + place * 3 * frames;
-  static const auto kFolded = static_cast<float>(cosine_of_degrees(kFoldedDegrees));
-  int bad = 0;
+  const auto cosine = static_cast<float>(cosine_of_degrees(degrees));
   for (std::size_t f = 0; f < frames; ++f) {
-    const float length = std::sqrt(dot(beyond, beyond, f, frames));
-    const float now = std::sqrt(dot(normal_.data(), normal_.data(), f, frames));
-    const float then = std::sqrt(dot(before, before, f, frames));
-    const bool folded = dot(normal_.data(), beyond, f, frames) < kFolded * length * now;
-    const bool was_folded = dot(before, beyond, f, frames) < kFolded * length * then;
-    bad |= static_cast<int>(folded) & static_cast<int>(!was_folded);
+    const float lengths = std::sqrt(dot(a, a, f, frames)) * std::sqrt(dot(b, b, f, frames));
+    folds[f] += dot(a, b, f, frames) < cosine * lengths ? 1 : 0;
   }
-  return bad != 0;
+}
+
+void FoldCheck::count_star_folds() {
+  const std::size_t frames = positions_.frame_count(), n = ring_->size(), faces = ring_->faces.size();
+  std::fill(star_folds_.begin(), star_folds_.end(), 0);
+  for (std::size_t i = 0; i < faces; ++i) {
+    const float* normal = star_.data() + i * 3 * frames;
+    if (ring_->closed || i + 1 < faces)
+      count_folds(normal, star_.data() + (i + 1) % faces * 3 * frames, kFoldedDegrees + kMargin, star_folds_);
+    if (ring_->across[i] == kNoVertex) continue;
+    float* beyond = across_.data() + i * 3 * frames;
+    area_normals(positions_.path(ring_->origins[(i + 1) % n]), positions_.path(ring_->origins[i]),
+                 positions_.path(ring_->across[i]), frames, beyond);
+    count_folds(normal, beyond, kFoldedDegrees + kMargin, star_folds_);
+  }
+}
+
+bool FoldCheck::adds_folds(std::span<const RingTriangle> triangles) {
+  const std::size_t frames = positions_.frame_count(), n = ring_->size();
+  std::fill(folds_.begin(), folds_.end(), 0);
+  const auto side = [&](std::size_t t, std::size_t c) {
+    return std::pair(triangles[t][c], triangles[t][(c + 1) % 3]);
+  };
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const float* normal = fresh_.data() + t * 3 * frames;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto [from, to] = side(t, c);
+      if (to == (from + 1) % n && from < ring_->faces.size()) {
+        if (ring_->across[from] != kNoVertex)
+          count_folds(normal, across_.data() + from * 3 * frames, kFoldedDegrees - kMargin, folds_);
+        continue;
+      }
+      for (std::size_t other = t + 1; other < triangles.size(); ++other) {
+        for (std::size_t d = 0; d < 3; ++d) {
+          if (side(other, d) == std::pair(to, from))
+            count_folds(normal, fresh_.data() + other * 3 * frames, kFoldedDegrees - kMargin, folds_);
+        }
+      }
+    }
+  }
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (folds_[f] > star_folds_[f]) return true;
+  }
+  return false;
 }
 
 bool FoldCheck::allows(std::span<const RingTriangle> triangles) {
-  const std::size_t frames = positions_.frame_count(), n = ring_->size();
-  for (const RingTriangle& triangle : triangles) {
-    if (!allows_face(triangle)) return false;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t place = triangle[c];
-      if (triangle[(c + 1) % 3] != (place + 1) % n || place >= ring_->faces.size()) continue;
-      if (ring_->across[place] == kNoVertex) continue;
-      if (has_across_[place] == 0) {
-        has_across_[place] = 1;
-        area_normals(positions_.path(ring_->origins[(place + 1) % n]), positions_.path(ring_->origins[place]),
-                     positions_.path(ring_->across[place]), frames, across_.data() + place * 3 * frames);
-      }
-      if (folds_over(place)) return false;
-    }
+  const std::size_t frames = positions_.frame_count();
+  fresh_.resize(triangles.size() * 3 * frames);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!allows_face(triangles[t], fresh_.data() + t * 3 * frames)) return false;
   }
-  return true;
+  return !adds_folds(triangles);
 }
 
 }  // namespace tvg

@@ -11,14 +11,14 @@ namespace tvg {
 /// A face is none, or will soon be, when it is this much lower than long.
 inline constexpr float kThinnestFace = 1e-3f;
 /// Degrees between the normals of two faces at an edge from which on one lies folded on the other.
-inline constexpr double kFoldedDegrees = 175;
+inline constexpr double kFoldedDegrees = 150;
 
 /// Says of a hole, in every frame, whether faces that fill it turn too far away from those that were there.
 class FoldCheck {
  public:
   /// `largest_turn` in degrees: between the normal of a new face and the sum of the areas that go, unless one
   /// of the faces that go was further off in that frame; at a boundary half of it between the new edge and
-  /// each of the two it replaces.
+  /// each of the two it replaces. No frame may have more folded edges than before.
   FoldCheck(const MovingPositions& positions, double largest_turn);
 
   /// Turns to the hole of a vertex. `center` is the original's vertex.
@@ -33,22 +33,29 @@ class FoldCheck {
   bool allows(std::span<const RingTriangle> triangles);
 
  private:
+  /// What rounding may make of an angle, in degrees.
+  static constexpr double kMargin = 0.25;
+
   void judge_star();
-  bool allows_face(const RingTriangle& triangle);
-  bool folds_over(std::size_t place) const;
+  void count_star_folds();
+  /// Adds 1 for each frame in which two normals are further apart than so many degrees.
+  void count_folds(const float* a, const float* b, double degrees, std::vector<int>& folds) const;
+  bool allows_face(const RingTriangle& triangle, float* normal) const;
+  bool adds_folds(std::span<const RingTriangle> triangles);
 
   const MovingPositions& positions_;
   double cosine_, chord_cosine_;
   std::uint32_t center_ = 0;
   const Ring* ring_ = nullptr;
   std::vector<double> angles_, radii_;
-  std::vector<float> star_;               ///< [place][axis][frame] area normals of the faces that go
-  std::vector<float> sum_;                ///< [axis][frame] of them
-  std::vector<float> least_along_;        ///< [frame] of a unit normal along the sum
-  std::vector<std::uint8_t> has_sum_;     ///< [frame] whether the faces that go have an area there
-  std::vector<float> normal_;             ///< [axis][frame] of the face in question
-  std::vector<float> across_;             ///< [place][axis][frame] of the faces beyond the ring
-  std::vector<std::uint8_t> has_across_;  ///< [place] whether they are worked out yet
+  std::vector<float> star_;            ///< [place][axis][frame] area normals of the faces that go
+  std::vector<float> sum_;             ///< [axis][frame] of them
+  std::vector<float> least_along_;     ///< [frame] of a unit normal along the sum
+  std::vector<std::uint8_t> has_sum_;  ///< [frame] whether the faces that go have an area there
+  std::vector<float> across_;          ///< [place][axis][frame] of the faces beyond the ring
+  std::vector<float> fresh_;           ///< [triangle][axis][frame] of the faces in question
+  std::vector<int> star_folds_,
+      folds_;  ///< [frame] folded edges at the faces that go, and at those in question
 };
 
 }  // namespace tvg

@@ -35,7 +35,7 @@ struct SimplifyOptions {
   double largest_turn = 75;
   /// In every frame given no face may fold; in so many of them, evenly spread, none may come to intersect
   /// another where none did before. 0 for none.
-  std::uint32_t intersection_frames = 8;
+  std::uint32_t intersection_frames = 24;
 };
 
 /// A point on a mesh: in a face, by barycentric coordinates.
