@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 
 /// Read, or of no matter to positions; names that end in _ stand for all that begin so.
-constexpr std::array<std::string_view, 17> kKnown = {"KHR_mesh_quantization",
+constexpr std::array<std::string_view, 18> kKnown = {"KHR_mesh_quantization",
                                                      "EXT_meshopt_compression",
                                                      "KHR_meshopt_compression",
                                                      "KHR_materials_",
@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 17> kKnown = {"KHR_mesh_quantization",
                                                      "EXT_lights_",
                                                      "KHR_xmp_",
                                                      "KHR_techniques_webgl",
+                                                     "KHR_technique_webgl",
                                                      "ADOBE_materials_",
                                                      "MSFT_lod",
                                                      "EXT_mesh_features",

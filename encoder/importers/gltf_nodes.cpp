@@ -35,14 +35,12 @@ class NodeReader {
 
   void read() {
     find_parents();
+    check_cycles();
     nodes_.place.assign(model_.nodes.size(), kNowhere);
     nodes_.rest.resize(model_.nodes.size());
     for (const std::size_t root : roots()) take_tree(root, true);
     for (std::size_t node = 0; node < model_.nodes.size(); ++node) {
       if (parent_[node] == kNowhere && nodes_.place[node] == kNowhere) take_tree(node, false);
-    }
-    for (std::size_t node = 0; node < model_.nodes.size(); ++node) {
-      if (nodes_.place[node] == kNowhere) scene_.fail(fmt::format("node {} is among those below it", node));
     }
     scene_.nodes = SceneNodes(std::move(list_));
   }
@@ -63,6 +61,24 @@ class NodeReader {
         if (parent_[child] != kNowhere) scene_.fail(fmt::format("node {} has two parents", child));
         parent_[child] = node;
       }
+    }
+  }
+
+  /// Each has one parent at most, so that what no root leads to goes round.
+  void check_cycles() const {
+    std::vector<char> reached(parent_.size(), 0);
+    std::vector<std::size_t> pending;
+    for (std::size_t node = 0; node < parent_.size(); ++node) {
+      if (parent_[node] == kNowhere) pending.push_back(node);
+    }
+    while (!pending.empty()) {
+      const std::size_t node = pending.back();
+      pending.pop_back();
+      reached[node] = 1;
+      for (const int child : model_.nodes[node].children) pending.push_back(static_cast<std::size_t>(child));
+    }
+    for (std::size_t node = 0; node < reached.size(); ++node) {
+      if (reached[node] == 0) scene_.fail(fmt::format("node {} is among those below it", node));
     }
   }
 
