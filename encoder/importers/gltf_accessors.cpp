@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 
 namespace tvg::cli {
 
@@ -108,6 +109,14 @@ struct Elements {
 
 }  // namespace
 
+std::uint64_t GltfLimits::most_numbers(std::uint64_t bytes) const {
+  return numbers + numbers_per_byte * std::min(bytes, std::uint64_t{1} << 50);
+}
+
+std::uint64_t GltfLimits::most_vertices(std::uint64_t bytes) const {
+  return std::min<std::uint64_t>(most_numbers(bytes) / 16, std::numeric_limits<std::uint32_t>::max());
+}
+
 GltfAccessors::GltfAccessors(const std::string& path, const GltfDocument& document, GltfFileReader read_file,
                              const GltfLimits& limits)
     : path_(path),
@@ -139,9 +148,7 @@ bool GltfAccessors::has_bytes(int index, const std::string& what) const {
 }
 
 void GltfAccessors::take_budget(std::uint64_t count, std::size_t width, const std::string& what) {
-  const std::uint64_t most =
-      limits_.numbers +
-      limits_.numbers_per_byte * std::min<std::uint64_t>(bytes_ + buffers_.size(), 1ull << 50);
+  const std::uint64_t most = limits_.most_numbers(bytes());
   if (count > (most - taken_) / width) {
     fail(what,
          fmt::format("has {} elements, and with those before them that is more than {} numbers, the most "

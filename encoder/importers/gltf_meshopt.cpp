@@ -90,7 +90,13 @@ std::optional<std::string> decode_meshopt(const MeshoptView& view, std::span<con
   } else {
     result = meshopt_decodeIndexSequence(decoded.data(), view.count, view.stride, bytes.data(), bytes.size());
   }
-  if (result != 0) return "is damaged, or of a newer version than is read: export it without compression";
+  if (result != 0 && (bytes[0] & 0xf) > (view.mode == "ATTRIBUTES" ? 0 : 1)) {
+    return fmt::format(
+        "is of version {} of its codec, which the library here does not read: pack it with "
+        "EXT_meshopt_compression (gltfpack -cc), or export it without compression",
+        bytes[0] & 0xf);
+  }
+  if (result != 0) return "is damaged";
   return apply_filter(view, decoded);
 }
 

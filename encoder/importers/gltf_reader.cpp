@@ -21,6 +21,7 @@ class GltfReader final : public SceneReader {
     accessors_ = std::make_unique<GltfAccessors>(scene_.path, document_, std::move(read_file), limits);
     scene_.metadata = {{"units", "m"}, {"up", "y"}};
     scene_.notes = document_.notes;
+    scene_.most_vertices = limits.most_vertices(bytes_.size());
     for (std::size_t i = 0; i < model().meshes.size(); ++i) {
       const std::string& name = model().meshes[i].name;
       scene_.mesh_names.push_back(name.empty() ? fmt::format("mesh {}", i) : name);

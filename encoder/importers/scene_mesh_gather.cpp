@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <set>
 
 namespace tvg::cli {
 
 namespace {
-
-constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
 
 class Gatherer {
  public:
@@ -46,7 +43,15 @@ class Gatherer {
     result_.left_out += part.left_out;
     if (part.faces.empty()) return;
     const std::size_t first = result_.positions.size();
-    if (part.positions.size() > kMostVertices - first) scene_.fail("its meshes have more vertices than 2^32");
+    const auto fits = [this](std::size_t more, std::size_t present) {
+      return present <= scene_.most_vertices && more <= scene_.most_vertices - present;
+    };
+    if (!fits(part.positions.size(), first) || !fits(part.faces.size(), result_.mesh.faces.size())) {
+      scene_.fail(
+          fmt::format("its meshes have more than {} vertices or faces as its nodes hold them, the most "
+                      "that are read of a file of its size",
+                      scene_.most_vertices));
+    }
     ++result_.parts;
     take_faces(instance, part, first);
     take_positions(instance, part);
@@ -128,23 +133,25 @@ class Gatherer {
   }
 
   /// [joint]
-  std::vector<std::uint32_t> carriers_of(const SceneInstance& instance) {
-    std::vector<std::uint32_t> carriers;
-    if (!instance.skin) return carriers;
-    const SceneSkin& skin = scene_.skins[*instance.skin];
+  const std::vector<std::uint32_t>& carriers_of(const SceneInstance& instance, std::size_t skin_index) {
+    const auto [entry, is_new] = of_skin_.try_emplace(skin_index);
+    if (!is_new) return entry->second;
+    const SceneSkin& skin = scene_.skins[skin_index];
     for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
       if (!skin.offsets[joint].matrix().allFinite()) {
         scene_.fail(fmt::format("mesh \"{}\": the offset of bone \"{}\" is not finite",
                                 scene_.mesh_names[instance.mesh],
                                 scene_.nodes.list()[skin.joints[joint]].name));
       }
-      carriers.push_back(carrier(skin.joints[joint], skin.offsets[joint], true));
+      entry->second.push_back(carrier(skin.joints[joint], skin.offsets[joint], true));
     }
-    return carriers;
+    return entry->second;
   }
 
   void take_influences(const SceneInstance& instance, const ScenePart& part) {
-    const std::vector<std::uint32_t> carriers = carriers_of(instance);
+    static const std::vector<std::uint32_t> kNone;
+    const std::vector<std::uint32_t>& carriers =
+        instance.skin ? carriers_of(instance, *instance.skin) : kNone;
     std::vector<Influence> influences;
     for (std::size_t vertex = 0; vertex < part.positions.size(); ++vertex) {
       influences.clear();
@@ -197,9 +204,10 @@ class Gatherer {
   std::vector<char> chosen_;       // [instance]
   std::vector<Transform> global_;  // [node], where the clip begins
   SceneMesh result_;
-  std::map<std::size_t, std::vector<ScenePart>> parts_;    // by mesh
-  std::set<std::pair<std::size_t, std::size_t>> skinned_;  // mesh and skin of those that have been taken
-  std::map<std::vector<double>, std::uint32_t> carriers_;  // by node and offset
+  std::map<std::size_t, std::vector<ScenePart>> parts_;        // by mesh
+  std::set<std::pair<std::size_t, std::size_t>> skinned_;      // mesh and skin of those that have been taken
+  std::map<std::vector<double>, std::uint32_t> carriers_;      // by node and offset
+  std::map<std::size_t, std::vector<std::uint32_t>> of_skin_;  // carriers, by skin
 };
 
 }  // namespace

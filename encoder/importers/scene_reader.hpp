@@ -3,6 +3,7 @@
 #include "encoder/importers/scene_nodes.hpp"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,8 +36,10 @@ struct Scene {
   std::vector<SceneSkin> skins;
   std::vector<SceneInstance> instances;  ///< in the order of their nodes
   std::vector<std::string> clip_names;   ///< [clip]
-  Metadata metadata;                     ///< units and up axis, where the format says them
-  std::vector<std::string> notes;        ///< what is passed over in all clips
+  /// Vertices, and faces, that all instances may have together.
+  std::uint64_t most_vertices = std::numeric_limits<std::uint32_t>::max();
+  Metadata metadata;               ///< units and up axis, where the format says them
+  std::vector<std::string> notes;  ///< what is passed over in all clips
 
   /// Ends with ImportError (kInvalidInput) that names the file.
   [[noreturn]] void fail(const std::string& what) const;

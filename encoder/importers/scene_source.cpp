@@ -118,22 +118,29 @@ void note_mesh(const std::string& path, const SceneMesh& mesh, std::size_t verti
   }
 }
 
-OpenedScene open_clip(const std::string& path, const SceneOptions& options) {
+}  // namespace
+
+OpenedScene open_scene(const std::string& path, const SceneOptions& options) {
+  if (const auto frames = keyframe_count(path)) return open_keyframes(path, *frames, options);
+  return open_scene(*read_scene(path), options);
+}
+
+OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
   const std::string rate = options.fps.empty() ? kDefaultFps : options.fps;
   const double fps = parse_rate(rate);
   OpenedScene opened;
-  const std::unique_ptr<SceneReader> reader = read_scene(path);
-  const Scene& scene = reader->scene();
+  const Scene& scene = reader.scene();
+  const std::string& path = scene.path;
   opened.notes = scene.notes;
   Clip clip;
   if (!scene.clip_names.empty() || !options.clip.empty()) {
     const std::size_t index = options.clip.empty() ? 0 : find_clip(scene, options.clip);
     if (options.clip.empty()) note_clips(scene, index, opened.notes);
-    clip = reader->read_clip(index, opened.notes);
+    clip = reader.read_clip(index, opened.notes);
   } else {
     opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
   }
-  SceneMesh mesh = gather_meshes(*reader, clip, options.meshes, opened.notes);
+  SceneMesh mesh = gather_meshes(reader, clip, options.meshes, opened.notes);
   const std::size_t vertices_before = mesh.positions.size();
   weld(mesh);
   note_mesh(path, mesh, vertices_before, opened.notes);
@@ -143,13 +150,6 @@ OpenedScene open_clip(const std::string& path, const SceneOptions& options) {
   opened.source = std::make_unique<SceneSource>(path, scene.nodes, std::move(clip), std::move(mesh),
                                                 std::move(metadata), fps);
   return opened;
-}
-
-}  // namespace
-
-OpenedScene open_scene(const std::string& path, const SceneOptions& options) {
-  if (const auto frames = keyframe_count(path)) return open_keyframes(path, *frames, options);
-  return open_clip(path, options);
 }
 
 }  // namespace tvg::cli
