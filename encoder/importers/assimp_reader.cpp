@@ -162,7 +162,7 @@ void AssimpReader::read_instances() {
             fmt::format("node \"{}\" holds mesh {} of {}", source.mName.C_Str(), index, import_->mNumMeshes));
       }
       const aiMesh& mesh = *import_->mMeshes[index];
-      SceneInstance instance{node, index, skin_of_[index], {}};
+      SceneInstance instance{.node = node, .mesh = index, .skin = skin_of_[index]};
       for (unsigned target = 0; target < mesh.mNumAnimMeshes; ++target) {
         const aiAnimMesh* morph = mesh.mAnimMeshes[target];
         instance.weights.push_back(morph == nullptr ? 0 : double{morph->mWeight});

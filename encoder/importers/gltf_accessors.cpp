@@ -184,17 +184,17 @@ void GltfAccessors::read_elements(const tinygltf::Accessor& accessor, std::size_
 void GltfAccessors::read_sparse(const tinygltf::Accessor& accessor, std::size_t width,
                                 const std::string& what, std::vector<double>& values) {
   const auto& sparse = accessor.sparse;
-  const auto unsigned_offset = [](auto offset) {
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(offset, 0));
-  };
-  if (sparse.count < 0 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
+  // Versions of tinygltf have numbers of different types here.
+  const auto indices_begin = static_cast<std::int64_t>(sparse.indices.byteOffset);
+  const auto values_begin = static_cast<std::int64_t>(sparse.values.byteOffset);
+  if (sparse.count < 0 || indices_begin < 0 || values_begin < 0 ||
       !is_unsigned(sparse.indices.componentType)) {
     fail(what, "is sparse, and its \"sparse\" makes no sense");
   }
   const auto count = static_cast<std::uint64_t>(sparse.count);
-  Elements indices{buffers_.view(sparse.indices.bufferView), unsigned_offset(sparse.indices.byteOffset), 0,
+  Elements indices{buffers_.view(sparse.indices.bufferView), static_cast<std::uint64_t>(indices_begin), 0,
                    sparse.indices.componentType, 1};
-  Elements replaced{buffers_.view(sparse.values.bufferView), unsigned_offset(sparse.values.byteOffset), 0,
+  Elements replaced{buffers_.view(sparse.values.bufferView), static_cast<std::uint64_t>(values_begin), 0,
                     accessor.componentType, width};
   indices.stride = indices.element_size();
   replaced.stride = replaced.element_size();
@@ -211,39 +211,37 @@ void GltfAccessors::read_sparse(const tinygltf::Accessor& accessor, std::size_t 
   }
 }
 
-std::vector<double> GltfAccessors::read(int index, std::size_t width, const std::string& what,
-                                        bool normalized) {
-  const tinygltf::Accessor& accessor = find(index, what);
+std::vector<double> GltfAccessors::read_plain(const tinygltf::Accessor& accessor, std::size_t width,
+                                              const std::string& what) {
   const std::size_t held = width_of(accessor.type);
   if (size_of(accessor.componentType) == 0 || held != width) {
-    fail(what, fmt::format("is in accessor {}, of {} components of type {}, where {} are wanted", index, held,
-                           accessor.componentType, width));
+    fail(what, fmt::format("has {} components of type {}, where {} are wanted", held, accessor.componentType,
+                           width));
   }
   std::vector<double> values;
   read_elements(accessor, width, what, values);
   if (accessor.sparse.isSparse) read_sparse(accessor, width, what, values);
-  if (normalized || accessor.normalized) {
-    const double scale = divisor(accessor.componentType);
-    // The least integer of a signed type is one below what stands for -1.
-    if (scale != 1) {
-      for (double& value : values) value = std::max(value / scale, -1.0);
-    }
-  }
+  return values;
+}
+
+std::vector<double> GltfAccessors::read(int index, std::size_t width, const std::string& what,
+                                        bool normalized) {
+  const tinygltf::Accessor& accessor = find(index, what);
+  std::vector<double> values = read_plain(accessor, width, what);
+  const double scale = divisor(accessor.componentType);
+  if (!(normalized || accessor.normalized) || scale == 1) return values;
+  // The least integer of a signed type is one below what stands for -1.
+  for (double& value : values) value = std::max(value / scale, -1.0);
   return values;
 }
 
 std::vector<std::uint32_t> GltfAccessors::read_numbers(int index, std::size_t width,
                                                        const std::string& what) {
-  const int component = find(index, what).componentType;
-  if (!is_unsigned(component))
-    fail(what, fmt::format("is of type {}, where whole numbers are wanted", component));
   const tinygltf::Accessor& accessor = find(index, what);
-  std::vector<double> values;
-  if (width_of(accessor.type) != width) {
-    fail(what, fmt::format("has {} components, where {} are wanted", width_of(accessor.type), width));
+  if (!is_unsigned(accessor.componentType)) {
+    fail(what, fmt::format("is of type {}, where whole numbers are wanted", accessor.componentType));
   }
-  read_elements(accessor, width, what, values);
-  if (accessor.sparse.isSparse) read_sparse(accessor, width, what, values);
+  const std::vector<double> values = read_plain(accessor, width, what);
   std::vector<std::uint32_t> numbers;
   numbers.reserve(values.size());
   for (const double value : values) numbers.push_back(static_cast<std::uint32_t>(value));

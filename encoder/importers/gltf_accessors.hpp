@@ -39,6 +39,8 @@ class GltfAccessors {
 
  private:
   const tinygltf::Accessor& find(int index, const std::string& what) const;
+  std::vector<double> read_plain(const tinygltf::Accessor& accessor, std::size_t width,
+                                 const std::string& what);
   void read_elements(const tinygltf::Accessor& accessor, std::size_t width, const std::string& what,
                      std::vector<double>& values);
   void read_sparse(const tinygltf::Accessor& accessor, std::size_t width, const std::string& what,

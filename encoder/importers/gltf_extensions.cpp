@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view kDraco = "KHR_draco_mesh_compression";
 
 /// Read, or of no matter to positions; names that end in _ stand for all that begin so.
-constexpr std::array<std::string_view, 18> kKnown = {"KHR_mesh_quantization",
+constexpr std::array<std::string_view, 19> kKnown = {"KHR_mesh_quantization",
                                                      "EXT_meshopt_compression",
                                                      "KHR_meshopt_compression",
                                                      "KHR_materials_",
@@ -28,6 +28,7 @@ constexpr std::array<std::string_view, 18> kKnown = {"KHR_mesh_quantization",
                                                      "KHR_technique_webgl",
                                                      "ADOBE_materials_",
                                                      "MSFT_lod",
+                                                     "EXT_mesh_gpu_instancing",
                                                      "EXT_mesh_features",
                                                      "EXT_structural_metadata",
                                                      "KHR_xmp"};
@@ -37,9 +38,8 @@ struct PassedOver {
   std::string_view name;
   const char* instead;
 };
-constexpr std::array<PassedOver, 3> kPassedOver = {
-    {{"EXT_mesh_gpu_instancing", "each mesh stands once where its node is"},
-     {"KHR_animation_pointer", "what only it moves stands still"},
+constexpr std::array<PassedOver, 2> kPassedOver = {
+    {{"KHR_animation_pointer", "what only it moves stands still"},
      {"KHR_node_visibility", "hidden nodes are taken too"}}};
 
 bool is_known(std::string_view name) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// Attributes of one name that are numbered: JOINTS_0, JOINTS_1, ...
+/// The accessor of an attribute, or -1.
 int find_attribute(const std::map<std::string, int>& attributes, const std::string& name) {
   const auto found = attributes.find(name);
   return found == attributes.end() ? -1 : found->second;

@@ -162,7 +162,7 @@ class NodeReader {
     if (mesh >= model_.meshes.size()) {
       scene_.fail(fmt::format("node {} holds mesh {}, and there are {}", node, mesh, model_.meshes.size()));
     }
-    SceneInstance instance{nodes_.place[node], mesh, {}, source.weights};
+    SceneInstance instance{.node = nodes_.place[node], .mesh = mesh, .weights = source.weights};
     if (instance.weights.empty()) instance.weights = model_.meshes[mesh].weights;
     if (source.skin >= 0) instance.skin = static_cast<std::size_t>(source.skin);
     if (instance.skin && *instance.skin >= model_.skins.size()) {

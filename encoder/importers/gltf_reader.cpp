@@ -1,6 +1,7 @@
 #include "encoder/importers/gltf_reader.hpp"
 
 #include "encoder/importers/gltf_clip.hpp"
+#include "encoder/importers/gltf_instances.hpp"
 #include "encoder/importers/gltf_mesh.hpp"
 #include "encoder/importers/gltf_nodes.hpp"
 #include "encoder/importers/gltf_uri.hpp"
@@ -11,6 +12,9 @@
 namespace tvg::cli {
 
 namespace {
+
+/// The least of a mesh that is shown, and more.
+constexpr std::uint64_t kVerticesPerInstance = 16;
 
 class GltfReader final : public SceneReader {
  public:
@@ -29,6 +33,7 @@ class GltfReader final : public SceneReader {
     for (const tinygltf::Animation& animation : model().animations)
       scene_.clip_names.push_back(animation.name);
     read_gltf_nodes(document_, scene_, nodes_);
+    place_instances(limits.most_vertices(bytes_.size()) / kVerticesPerInstance);
     read_skins();
   }
 
@@ -43,6 +48,23 @@ class GltfReader final : public SceneReader {
 
  private:
   const tinygltf::Model& model() const { return document_.model; }
+
+  /// Each as often as its node says.
+  void place_instances(std::uint64_t most) {
+    std::vector<std::size_t> in_file(nodes_.place.size());
+    for (std::size_t node = 0; node < in_file.size(); ++node) in_file[nodes_.place[node]] = node;
+    std::vector<SceneInstance> instances;
+    for (SceneInstance& instance : scene_.instances) {
+      const tinygltf::Node& node = model().nodes[in_file[instance.node]];
+      const std::string& name = scene_.nodes.list()[instance.node].name;
+      for (const Transform& placed :
+           read_gltf_instances(scene_, node, name, *accessors_, most - instances.size())) {
+        instance.placed = placed;
+        instances.push_back(instance);
+      }
+    }
+    scene_.instances = std::move(instances);
+  }
 
   /// Those that some instance has.
   void read_skins() {

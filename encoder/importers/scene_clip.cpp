@@ -37,10 +37,10 @@ bool make_valid(Track& track, std::size_t key) {
   const std::span<double> values = std::span(track.values).subspan(key * track.key_size(), track.key_size());
   if (!all_finite(values)) return false;
   if (!track.is_rotation) return true;
-  Eigen::Map<Eigen::Quaterniond> rotation(const_cast<double*>(track.value(key).data()));
-  const double norm = rotation.norm();
+  const double norm = Eigen::Map<const Eigen::Quaterniond>(track.value(key).data()).norm();
   if (!std::isfinite(norm) || norm < 1e-12) return false;
-  if (track.interpolation != Interpolation::kCubic) rotation.coeffs() /= norm;
+  if (track.interpolation == Interpolation::kCubic) return true;
+  for (double& value : values) value /= norm;
   return true;
 }
 

@@ -59,7 +59,8 @@ class Gatherer {
   }
 
   void take_faces(const SceneInstance& instance, const ScenePart& part, std::size_t first) {
-    const bool mirrored = !instance.skin && global_[instance.node].linear().determinant() < 0;
+    const bool mirrored =
+        !instance.skin && (global_[instance.node] * instance.placed).linear().determinant() < 0;
     for (std::size_t i = 0; i < part.faces.size(); ++i) {
       Face face = part.faces[i];
       for (std::uint32_t& corner : face) {
@@ -103,9 +104,9 @@ class Gatherer {
         if (!shift.delta.allFinite())
           fail_vertex(instance, shift.vertex, "a morph target that is NaN or infinite");
         if (slots == nullptr) {
-          positions.at(shift.vertex) += weight * shift.delta;
+          positions[shift.vertex] += weight * shift.delta;
         } else if (target < slots->count) {
-          morphs.at(shift.vertex).push_back({static_cast<std::uint32_t>(slots->first + target), shift.delta});
+          morphs[shift.vertex].push_back({static_cast<std::uint32_t>(slots->first + target), shift.delta});
         }
       }
     }
@@ -169,7 +170,7 @@ class Gatherer {
         }
       }
       normalize(influences);
-      if (influences.empty()) influences.push_back({carrier(instance.node, Transform::Identity(), false), 1});
+      if (influences.empty()) influences.push_back({carrier(instance.node, instance.placed, false), 1});
       result_.influences.insert(result_.influences.end(), influences.begin(), influences.end());
       result_.influence_begin.push_back(result_.influences.size());
     }

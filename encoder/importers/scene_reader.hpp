@@ -23,8 +23,9 @@ struct SceneSkin {
 struct SceneInstance {
   std::size_t node = 0;
   std::size_t mesh = 0;
-  std::optional<std::size_t> skin;  ///< which then places it, and not the node
-  std::vector<double> weights;      ///< [morph target] where no clip moves them; missing ones are 0
+  std::optional<std::size_t> skin = {};      ///< which then places it, and not the node
+  std::vector<double> weights = {};          ///< [morph target] where no clip moves them; missing ones are 0
+  Transform placed = Transform::Identity();  ///< from the mesh's space to that of the node
 };
 
 /// What a scene holds, whatever it was read from. Things are known by their numbers: names need not be
@@ -57,8 +58,8 @@ struct VertexShift {
   Eigen::Vector3d delta;
 };
 
-/// A stretch of a mesh with vertices of its own. Whoever reads it into memory checks neither indices nor
-/// numbers; gather_meshes() does.
+/// A stretch of a mesh with vertices of its own. Weights and targets fit its positions; corners of faces,
+/// joints and numbers are as the file has them, and gather_meshes() checks them.
 struct ScenePart {
   std::vector<Eigen::Vector3d> positions;         ///< [vertex]
   std::vector<Face> faces;                        ///< [face][corner]

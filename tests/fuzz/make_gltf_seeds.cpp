@@ -46,6 +46,8 @@ GltfBuilder sparse() {
   gltf.json["meshes"][0]["primitives"][0]["mode"] = 5;
   gltf.json["nodes"][0]["matrix"] = {0, 2, 0, 0, -2, 0, 0, 0, 0, 0, -2, 0, 0, 5, 0, 1};
   gltf.json["nodes"].push_back({{"mesh", 0}, {"scale", {-1, 1, 1}}});
+  gltf.json["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+      {"TRANSLATION", gltf.add<float>("VEC3", {0, 0, 0, 3, 0, 0})}};
   set_roots(gltf, {0, 1});
   return gltf;
 }

@@ -204,7 +204,7 @@ TEST_F(GltfScene, ReadsAChainOfNodesOfAnyLength) {
 
 TEST_F(GltfScene, RefusesExtensionsThatItRequiresAndThatAreNotRead) {
   GltfBuilder gltf = one_triangle();
-  for (const std::string name : {"VENDOR_unknown", "EXT_mesh_gpu_instancing", "KHR_animation_pointer"}) {
+  for (const std::string name : {"VENDOR_unknown", "KHR_node_visibility", "KHR_animation_pointer"}) {
     gltf.json["extensionsRequired"] = {name};
     const ToolError error = refusal(gltf, {});
     EXPECT_EQ(error.status(), ExitStatus::kInvalidInput);
@@ -219,11 +219,36 @@ TEST_F(GltfScene, RefusesExtensionsThatItRequiresAndThatAreNotRead) {
 
 TEST_F(GltfScene, NotesExtensionsThatWouldPlaceVertices) {
   GltfBuilder gltf = one_triangle();
-  gltf.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing", "KHR_materials_unlit"};
+  gltf.json["extensionsUsed"] = {"KHR_animation_pointer", "KHR_materials_unlit"};
   EXPECT_THAT(open(gltf).notes,
-              Contains(HasSubstr("EXT_mesh_gpu_instancing is passed over: each mesh stands once")));
+              Contains(HasSubstr("KHR_animation_pointer is passed over: what only it moves")));
   EXPECT_THAT(summarize_scene(folder_.write("a.gltf", gltf.text()), 30).notes,
-              ElementsAre(HasSubstr("EXT_mesh_gpu_instancing")));
+              ElementsAre(HasSubstr("KHR_animation_pointer")));
+}
+
+TEST_F(GltfScene, StandsAsOftenAsItsNodeSays) {
+  GltfBuilder gltf = one_triangle();
+  nlohmann::json& attributes = gltf.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+  attributes["TRANSLATION"] = gltf.add<float>("VEC3", {0, 0, 0, 3, 0, 0, 0, 0, 5});
+  attributes["ROTATION"] =
+      gltf.add_normalized<std::int16_t>("VEC4", {0, 0, 0, 32767, 0, 0, 32767, 0, 0, 0, 0, 32767});
+  attributes["SCALE"] = gltf.add<float>("VEC3", {1, 1, 1, 2, 2, 2, 1, 1, -1});
+  gltf.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  gltf.animate(0, 0, "translation", {0, 1}, "VEC3", {0, 0, 0, 0, 7, 0});
+  const OpenedSource opened = open(gltf, {"", {}, "1"});
+  const FramePositions last = read_all(*opened.source).frames.at(1);
+  ASSERT_EQ(last.size(), 27U);
+  expect_vertex(last, 1, 1, 7, 0);
+  expect_vertex(last, 4, 1, 7, 0);
+  expect_vertex(last, 5, 3, 5, 0);
+  expect_vertex(last, 7, 1, 7, 5);
+  EXPECT_EQ(opened.source->mesh().faces, (std::vector<Face>{{0, 1, 2}, {3, 4, 5}, {6, 8, 7}}));
+  attributes["SCALE"] = gltf.add<float>("VEC3", {1, 1, 1});
+  EXPECT_THAT(refusal(gltf, {}).what(),
+              HasSubstr("SCALE of EXT_mesh_gpu_instancing has 1 elements where others have 3"));
+  const int many = gltf.add_accessor({{"componentType", 5126}, {"count", 80000000}, {"type", "VEC3"}});
+  attributes = {{"TRANSLATION", many}};
+  EXPECT_THAT(refusal(gltf, {}).what(), HasSubstr("has 80000000 elements"));
 }
 
 TEST_F(GltfScene, SaysWhichMeshDracoHasCompressed) {
