@@ -24,8 +24,9 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
   command.add_option("--frames", arguments.frames, "frames A-B only, counted from 0");
   command.add_option("--clip", arguments.clip,
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
-  command.add_option("--mesh", arguments.meshes,
-                     "a mesh of a scene, by its name or its node's; may be repeated (default: all)");
+  command.add_option(
+      "--mesh", arguments.meshes,
+      "a mesh of a scene, by its name or its node's, or by number; may be repeated (default: all)");
   add_skeleton_option(command, arguments.skeleton);
 }
 

@@ -20,7 +20,8 @@ void print_json(const std::string& path, const std::string& fps, const SceneSumm
                          {"clips", nlohmann::json::array()},
                          {"meshes", nlohmann::json::array()},
                          {"joints", nlohmann::json::array()},
-                         {"welded_vertices", scene.welded_vertices}};
+                         {"welded_vertices", scene.welded_vertices},
+                         {"notes", scene.notes}};
   if (scene.keyframes) json["keyframes"] = *scene.keyframes;
   for (const auto& clip : scene.clips) {
     json["clips"].push_back({{"name", clip.name},
@@ -71,16 +72,18 @@ void print_text(const std::string& path, const std::string& fps, const SceneSumm
   }
   if (!scene.clips.empty()) fmt::print("  frames at {} per second\n", fps);
   if (!scene.meshes.empty()) {
-    fmt::print("\nmeshes\n  {:>9} {:>9} {:>6} {:>7}  {}\n", "vertices", "faces", "bones", "morphs",
+    fmt::print("\nmeshes\n  {:>3} {:>9} {:>9} {:>6} {:>7}  {}\n", "", "vertices", "faces", "bones", "morphs",
                "name (nodes)");
   }
-  for (const auto& mesh : scene.meshes) {
-    fmt::print("  {:>9} {:>9} {:>6} {:>7}  {} ({})\n", mesh.vertices, mesh.faces, mesh.bones,
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const auto& mesh = scene.meshes[i];
+    fmt::print("  {:>3} {:>9} {:>9} {:>6} {:>7}  {} ({})\n", i, mesh.vertices, mesh.faces, mesh.bones,
                mesh.morph_targets, mesh.name, fmt::join(mesh.nodes, ", "));
   }
   if (scene.welded_vertices > 0)
     fmt::print("  {} vertices once all are merged and welded\n", scene.welded_vertices);
   print_joints(scene.skeleton);
+  for (const std::string& note : scene.notes) fmt::print(stderr, "note: {}\n", note);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/mesh_file.hpp"
-#include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_mesh.hpp"
 #include "tool/option_values.hpp"
 
@@ -42,15 +41,17 @@ struct Keyframe {
 };
 
 Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const SceneOptions& options) {
-  const SceneFile file(path, frame);
-  const SceneNodes nodes(file.scene());
-  Keyframe keyframe{gather_meshes(file, nodes, {}, options.meshes), {}};
+  const std::unique_ptr<SceneReader> reader = read_scene(path, frame);
+  const SceneNodes& nodes = reader->scene().nodes;
+  std::vector<std::string> notes;
+  Keyframe keyframe{gather_meshes(*reader, {}, options.meshes, notes), {}};
   std::vector<Transform> global, scratch;
   nodes.to_scene_space(nodes.rest_pose(), global);
   keyframe.positions.resize(3 * keyframe.mesh.positions.size());
   keyframe.mesh.pose(global, {}, scratch, keyframe.positions);
   if (const std::size_t bad = find_non_finite(keyframe.positions); bad < keyframe.positions.size()) {
-    file.fail(fmt::format("frame {}, vertex {} has a coordinate that is NaN or infinite", frame, bad / 3));
+    reader->scene().fail(
+        fmt::format("frame {}, vertex {} has a coordinate that is NaN or infinite", frame, bad / 3));
   }
   return keyframe;
 }

@@ -1,33 +1,29 @@
 #pragma once
 #include "encoder/importers/scene_nodes.hpp"
+#include "encoder/importers/scene_track.hpp"
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-struct aiAnimation;
-struct aiNodeAnim;
-
 namespace tvg::cli {
 
-class SceneFile;
+/// Where a node stands in its parent's space: scaled, then turned, then moved.
+struct Placement {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
 
-/// Values over time; times never decrease.
-template <class Value>
-struct Track {
-  std::vector<double> times;  ///< [key], in seconds
-  std::vector<Value> values;  ///< [key]
+  Transform transform() const;
 };
 
-/// What a channel does before its first key and after its last.
-enum class Extrapolation { kHold, kLinear, kRepeat };
-
-/// The motion of one node. A track without keys keeps what the node has without the clip.
+/// The motion of one node. Where a track has no keys the node keeps what it has without the clip.
 struct NodeChannel {
   std::size_t node = 0;
-  Track<Eigen::Vector3d> positions;
-  Track<Eigen::Quaterniond> rotations;
-  Track<Eigen::Vector3d> scales;
+  Placement rest;
+  Track positions{3};
+  Track rotations{4, true};
+  Track scales{3};
   Extrapolation before = Extrapolation::kHold;
   Extrapolation after = Extrapolation::kHold;
 
@@ -35,14 +31,11 @@ struct NodeChannel {
   Transform at(double seconds) const;
 };
 
-/// Weights of the morph targets of all meshes of one name over time.
+/// Weights of morph targets over time, of the meshes that any of `nodes` holds and of `meshes`.
 struct MorphChannel {
-  std::string target;                  ///< name of a mesh, or of the node that holds it
-  Track<std::vector<double>> weights;  ///< [key][morph target]
-  std::size_t target_count = 0;
-
-  /// Weights at a time in seconds, target_count values.
-  void at(double seconds, std::vector<double>& weights_out) const;
+  std::vector<std::size_t> nodes;
+  std::vector<std::size_t> meshes;
+  Track weights;  ///< [key][morph target]
 };
 
 /// One animation of a scene.
@@ -54,18 +47,14 @@ struct Clip {
   double last = 0;   ///< time of their last key
 
   double duration() const { return last - first; }
+  /// Puts keys in order and says which time they span. Throws ImportError (kInvalidInput) that names `file`
+  /// where a time or a value is not finite or a rotation has no length.
+  void finish(const std::string& file, const SceneNodes& scene_nodes);
   /// Samples at `fps` from the first key to the last, both included: where the duration is no whole number of
   /// samples, the last one is taken up to one sample late and shows the last key.
   std::uint64_t frame_count(double fps) const;
   /// Places of all nodes at a time, [node]; starts from `rest`.
   void pose(double seconds, const std::vector<Transform>& rest, std::vector<Transform>& local) const;
 };
-
-/// Reads a clip of a scene. Throws ImportError (kInvalidInput) where a time or value is not finite.
-Clip read_clip(const SceneFile& file, const SceneNodes& nodes, std::size_t index);
-
-/// The number of the clip that `wanted` names (see SceneOptions). Throws ToolError (kUsage) that lists the
-/// clips where there is no such.
-std::size_t find_clip(const SceneFile& file, const std::string& wanted);
 
 }  // namespace tvg::cli

@@ -1,6 +1,5 @@
 #pragma once
-#include "encoder/importers/scene_clip.hpp"
-#include "encoder/importers/scene_nodes.hpp"
+#include "encoder/importers/scene_reader.hpp"
 
 #include <cstdint>
 #include <span>
@@ -10,8 +9,6 @@
 #include <tvg/source.hpp>
 
 namespace tvg::cli {
-
-class SceneFile;
 
 /// What carries vertices along: a bone of a skin, or the node that holds a mesh without a skin.
 struct Carrier {
@@ -59,12 +56,13 @@ struct SceneMesh {
             std::vector<Transform>& scratch, std::span<float> out) const;
 };
 
-/// Gathers the meshes of `wanted` (names of meshes or nodes; all where empty), in the order of the nodes that
-/// hold them; a skinned mesh that several nodes hold is taken once, because its bones place it. Morph targets
-/// that `clip` moves become slots, others are applied with the weights they have. Throws ImportError
+/// Gathers the meshes of `wanted` (see choose_instances), in the order of the nodes that hold them; a mesh
+/// that several nodes hold with one skin is taken once, because its joints place it. Morph targets that
+/// `clip` moves become slots, others are applied with the weights they have. Faces of a mesh that its node
+/// mirrors when the clip begins are turned, so that they look outward still. Throws ImportError
 /// (kInvalidInput: no faces, bad indices, numbers that are not finite) and ToolError (kUsage: unknown names).
-SceneMesh gather_meshes(const SceneFile& file, const SceneNodes& nodes, const Clip& clip,
-                        const std::vector<std::string>& wanted);
+SceneMesh gather_meshes(const SceneReader& reader, const Clip& clip, const std::vector<std::string>& wanted,
+                        std::vector<std::string>& notes);
 
 /// Joins vertices that agree in position, influences and morph deltas to the bit, in order of first
 /// appearance: a format that stores texture coordinates per vertex splits the mesh along every seam.

@@ -1,12 +1,9 @@
-#include "encoder/importers/scene_file.hpp"
+#include "encoder/importers/scene_choice.hpp"
 #include "encoder/importers/scene_mesh.hpp"
-#include "tool/tool_error.hpp"
 
 #include <algorithm>
-#include <assimp/scene.h>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -14,122 +11,82 @@ namespace tvg::cli {
 
 namespace {
 
-constexpr std::size_t kMostVertices = std::numeric_limits<std::uint32_t>::max();
-
-bool is_finite(const aiVector3D& value) {
-  return std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
-}
-
-Eigen::Vector3d to_point(const aiVector3D& value) {
-  return {double{value.x}, double{value.y}, double{value.z}};
-}
-
-/// "Face*0" for "Face": assimp appends a number to the channels of FBX.
-std::string without_number(const std::string& name) {
-  const std::size_t star = name.rfind('*');
-  const bool numbered =
-      star != std::string::npos && name.find_first_not_of("0123456789", star + 1) == std::string::npos;
-  return numbered ? name.substr(0, star) : name;
-}
-
 class Gatherer {
  public:
-  Gatherer(const SceneFile& file, const SceneNodes& nodes, const Clip& clip,
-           const std::vector<std::string>& wanted)
-      : file_(file), scene_(file.scene()), nodes_(nodes), clip_(clip), wanted_(wanted) {
+  Gatherer(const SceneReader& reader, const Clip& clip, std::vector<char> chosen)
+      : reader_(reader), scene_(reader.scene()), clip_(clip), chosen_(std::move(chosen)) {
     result_.influence_begin = {0};
     result_.morph_begin = {0};
+    std::vector<Transform> local;
+    clip.pose(clip.first, scene_.nodes.rest_pose(), local);
+    scene_.nodes.to_scene_space(local, global_);
   }
 
   SceneMesh gather() {
-    for (std::size_t node = 0; node < nodes_.list().size(); ++node) {
-      const aiNode& source = *nodes_.list()[node].source;
-      for (unsigned i = 0; i < source.mNumMeshes; ++i) {
-        if (source.mMeshes[i] >= scene_.mNumMeshes) {
-          file_.fail(fmt::format("node \"{}\" holds mesh {} of {}", source.mName.C_Str(), source.mMeshes[i],
-                                 scene_.mNumMeshes));
-        }
-        take(source.mMeshes[i], node);
-      }
+    for (std::size_t i = 0; i < chosen_.size(); ++i) {
+      if (chosen_[i] == 0) continue;
+      const SceneInstance& instance = scene_.instances[i];
+      if (instance.skin && !skinned_.emplace(instance.mesh, *instance.skin).second) continue;
+      if (!parts_.contains(instance.mesh)) parts_.emplace(instance.mesh, reader_.read_mesh(instance.mesh));
+      for (const ScenePart& part : parts_.at(instance.mesh)) take(instance, part);
     }
-    check_names();
     if (result_.mesh.faces.empty()) {
-      file_.fail(scene_.mNumMeshes == 0 ? "it holds no mesh to encode"
-                                        : "its meshes have no faces to encode");
+      scene_.fail(scene_.mesh_names.empty() ? "it holds no mesh to encode"
+                                            : "its meshes have no faces to encode");
     }
     result_.mesh.vertex_count = static_cast<std::uint32_t>(result_.positions.size());
     return std::move(result_);
   }
 
  private:
-  bool is_wanted(const std::string& mesh, const std::string& node) {
-    names_.insert(mesh);
-    names_.insert(node);
-    if (wanted_.empty()) return true;
-    bool found = false;
-    for (const std::string& name : wanted_) {
-      if (name != mesh && name != node) continue;
-      found_.insert(name);
-      found = true;
-    }
-    return found;
-  }
-
-  void check_names() const {
-    for (const std::string& name : wanted_) {
-      if (found_.contains(name)) continue;
-      throw ToolError(ExitStatus::kUsage, fmt::format("--mesh {}: {} has no mesh of that name; it has \"{}\"",
-                                                      name, file_.path(), fmt::join(names_, "\", \"")));
-    }
-  }
-
-  void take(unsigned index, std::size_t node) {
-    if (scene_.mMeshes[index] == nullptr) file_.fail(fmt::format("mesh {} is missing", index));
-    const aiMesh& mesh = *scene_.mMeshes[index];
-    const std::string mesh_name = mesh.mName.C_Str();
-    if (!is_wanted(mesh_name, nodes_.list()[node].name)) return;
-    if (mesh.mNumBones > 0 && !skinned_.insert(index).second) return;
+  void take(const SceneInstance& instance, const ScenePart& part) {
+    result_.left_out += part.left_out;
+    if (part.faces.empty()) return;
     const std::size_t first = result_.positions.size();
-    if (mesh.mVertices == nullptr || mesh.mNumVertices == 0) return;
-    if (mesh.mNumVertices > kMostVertices - first) file_.fail("its meshes have more vertices than 2^32");
-    if (!take_faces(mesh, first)) return;
+    const auto fits = [this](std::size_t more, std::size_t present) {
+      return present <= scene_.most_vertices && more <= scene_.most_vertices - present;
+    };
+    if (!fits(part.positions.size(), first) || !fits(part.faces.size(), result_.mesh.faces.size())) {
+      scene_.fail(
+          fmt::format("its meshes have more than {} vertices or faces as its nodes hold them, the most "
+                      "that are read of a file of its size",
+                      scene_.most_vertices));
+    }
     ++result_.parts;
-    take_positions(mesh, node);
-    take_influences(mesh, node);
+    take_faces(instance, part, first);
+    take_positions(instance, part);
+    take_influences(instance, part);
   }
 
-  bool take_faces(const aiMesh& mesh, std::size_t first) {
-    const std::size_t faces_before = result_.mesh.faces.size();
-    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-      const aiFace& source = mesh.mFaces[i];
-      if (source.mNumIndices != 3 || source.mIndices == nullptr) {
-        ++result_.left_out;
-        continue;
-      }
-      Face face;
-      for (unsigned corner = 0; corner < 3; ++corner) {
-        if (source.mIndices[corner] >= mesh.mNumVertices) {
-          file_.fail(fmt::format("mesh \"{}\", face {} names vertex {} of {}", mesh.mName.C_Str(), i,
-                                 source.mIndices[corner], mesh.mNumVertices));
+  void take_faces(const SceneInstance& instance, const ScenePart& part, std::size_t first) {
+    const bool mirrored =
+        !instance.skin && (global_[instance.node] * instance.placed).linear().determinant() < 0;
+    for (std::size_t i = 0; i < part.faces.size(); ++i) {
+      Face face = part.faces[i];
+      for (std::uint32_t& corner : face) {
+        if (corner >= part.positions.size()) {
+          scene_.fail(fmt::format("mesh \"{}\", face {} names vertex {} of {}",
+                                  scene_.mesh_names[instance.mesh], i, corner, part.positions.size()));
         }
-        face[corner] = static_cast<std::uint32_t>(first + source.mIndices[corner]);
+        corner += static_cast<std::uint32_t>(first);
       }
+      if (mirrored) std::swap(face[1], face[2]);
       result_.mesh.faces.push_back(face);
     }
-    return result_.mesh.faces.size() > faces_before;
   }
 
-  /// The slots of the channel that moves the mesh's morph targets; nothing where none does.
-  const MorphSlots* slots_of(const aiMesh& mesh, const std::string& node) {
-    const std::string mesh_name = mesh.mName.C_Str();
+  /// The slots of the channel that moves the instance's morph targets; nothing where none does.
+  const MorphSlots* slots_of(const SceneInstance& instance) {
+    const auto names = [](const std::vector<std::size_t>& numbers, std::size_t wanted) {
+      return std::find(numbers.begin(), numbers.end(), wanted) != numbers.end();
+    };
     for (std::size_t channel = 0; channel < clip_.morphs.size(); ++channel) {
-      const std::string& target = clip_.morphs[channel].target;
-      const std::string plain = without_number(target);
-      if (target != node && target != mesh_name && plain != node && plain != mesh_name) continue;
+      const MorphChannel& moves = clip_.morphs[channel];
+      if (!names(moves.nodes, instance.node) && !names(moves.meshes, instance.mesh)) continue;
       for (const MorphSlots& slots : result_.slots) {
         if (slots.channel == channel) return &slots;
       }
-      const std::size_t count = clip_.morphs[channel].target_count;
+      const std::size_t count = moves.weights.width;
       result_.slots.push_back({channel, result_.slot_count, count});
       result_.slot_count += count;
       return &result_.slots.back();
@@ -137,35 +94,29 @@ class Gatherer {
     return nullptr;
   }
 
-  void take_positions(const aiMesh& mesh, std::size_t node) {
-    for (unsigned target = 0; target < mesh.mNumAnimMeshes; ++target) {
-      const aiAnimMesh* morph = mesh.mAnimMeshes[target];
-      if (morph == nullptr || (morph->mVertices != nullptr && morph->mNumVertices != mesh.mNumVertices)) {
-        file_.fail(fmt::format("mesh \"{}\", morph target {} has {} vertices, the mesh has {}",
-                               mesh.mName.C_Str(), target, morph == nullptr ? 0 : morph->mNumVertices,
-                               mesh.mNumVertices));
-      }
-    }
-    const MorphSlots* slots = mesh.mNumAnimMeshes > 0 ? slots_of(mesh, nodes_.list()[node].name) : nullptr;
-    for (unsigned vertex = 0; vertex < mesh.mNumVertices; ++vertex) {
-      if (!is_finite(mesh.mVertices[vertex]))
-        fail_vertex(mesh, vertex, "a coordinate that is NaN or infinite");
-      const Eigen::Vector3d base = to_point(mesh.mVertices[vertex]);
-      Eigen::Vector3d position = base;
-      for (unsigned target = 0; target < mesh.mNumAnimMeshes; ++target) {
-        const aiAnimMesh& morph = *mesh.mAnimMeshes[target];
-        if (morph.mVertices == nullptr) continue;
-        if (!is_finite(morph.mVertices[vertex]))
-          fail_vertex(mesh, vertex, "a morph target that is NaN or infinite");
-        const Eigen::Vector3d delta = to_point(morph.mVertices[vertex]) - base;
-        if (delta.isZero(0)) continue;
+  void take_positions(const SceneInstance& instance, const ScenePart& part) {
+    const MorphSlots* slots = part.targets.empty() ? nullptr : slots_of(instance);
+    std::vector<Eigen::Vector3d> positions = part.positions;
+    std::vector<std::vector<MorphDelta>> morphs(slots == nullptr ? 0 : positions.size());
+    for (std::size_t target = 0; target < part.targets.size(); ++target) {
+      const double weight = target < instance.weights.size() ? instance.weights[target] : 0;
+      for (const VertexShift& shift : part.targets[target]) {
+        if (!shift.delta.allFinite())
+          fail_vertex(instance, shift.vertex, "a morph target that is NaN or infinite");
         if (slots == nullptr) {
-          position += double{morph.mWeight} * delta;
+          positions[shift.vertex] += weight * shift.delta;
         } else if (target < slots->count) {
-          result_.morphs.push_back({static_cast<std::uint32_t>(slots->first + target), delta});
+          morphs[shift.vertex].push_back({static_cast<std::uint32_t>(slots->first + target), shift.delta});
         }
       }
-      result_.positions.push_back(position);
+    }
+    for (std::size_t vertex = 0; vertex < positions.size(); ++vertex) {
+      if (!positions[vertex].allFinite())
+        fail_vertex(instance, vertex, "a coordinate that is NaN or infinite");
+      result_.positions.push_back(positions[vertex]);
+      if (slots != nullptr) {
+        result_.morphs.insert(result_.morphs.end(), morphs[vertex].begin(), morphs[vertex].end());
+      }
       result_.morph_begin.push_back(result_.morphs.size());
     }
   }
@@ -182,40 +133,44 @@ class Gatherer {
     return entry->second;
   }
 
-  std::uint32_t bone_carrier(const aiMesh& mesh, const aiBone& bone) {
-    const std::int32_t node = nodes_.find(bone.mName.C_Str());
-    if (node < 0) {
-      file_.fail(fmt::format("mesh \"{}\" is bound to the bone \"{}\", which is not among the nodes",
-                             mesh.mName.C_Str(), bone.mName.C_Str()));
+  /// [joint]
+  const std::vector<std::uint32_t>& carriers_of(const SceneInstance& instance, std::size_t skin_index) {
+    const auto [entry, is_new] = of_skin_.try_emplace(skin_index);
+    if (!is_new) return entry->second;
+    const SceneSkin& skin = scene_.skins[skin_index];
+    for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
+      if (!skin.offsets[joint].matrix().allFinite()) {
+        scene_.fail(fmt::format("mesh \"{}\": the offset of bone \"{}\" is not finite",
+                                scene_.mesh_names[instance.mesh],
+                                scene_.nodes.list()[skin.joints[joint]].name));
+      }
+      entry->second.push_back(carrier(skin.joints[joint], skin.offsets[joint], true));
     }
-    const Transform offset = to_transform(bone.mOffsetMatrix);
-    if (!offset.matrix().allFinite()) {
-      file_.fail(fmt::format("mesh \"{}\": the offset of bone \"{}\" is not finite", mesh.mName.C_Str(),
-                             bone.mName.C_Str()));
-    }
-    return carrier(static_cast<std::size_t>(node), offset, true);
+    return entry->second;
   }
 
-  void take_influences(const aiMesh& mesh, std::size_t node) {
-    std::vector<std::vector<Influence>> of_vertex(mesh.mNumVertices);
-    for (unsigned i = 0; i < mesh.mNumBones; ++i) {
-      if (mesh.mBones[i] == nullptr || mesh.mBones[i]->mWeights == nullptr) continue;
-      const aiBone& bone = *mesh.mBones[i];
-      const std::uint32_t moved_by = bone_carrier(mesh, bone);
-      for (unsigned entry = 0; entry < bone.mNumWeights; ++entry) {
-        const aiVertexWeight& weight = bone.mWeights[entry];
-        if (weight.mVertexId >= mesh.mNumVertices) {
-          file_.fail(fmt::format("mesh \"{}\", bone \"{}\" moves vertex {} of {}", mesh.mName.C_Str(),
-                                 bone.mName.C_Str(), weight.mVertexId, mesh.mNumVertices));
+  void take_influences(const SceneInstance& instance, const ScenePart& part) {
+    static const std::vector<std::uint32_t> kNone;
+    const std::vector<std::uint32_t>& carriers =
+        instance.skin ? carriers_of(instance, *instance.skin) : kNone;
+    std::vector<Influence> influences;
+    for (std::size_t vertex = 0; vertex < part.positions.size(); ++vertex) {
+      influences.clear();
+      if (instance.skin && !part.weights.empty()) {
+        for (const JointWeight& weight : part.weights[vertex]) {
+          if (!std::isfinite(weight.weight))
+            fail_vertex(instance, vertex, "a weight that is NaN or infinite");
+          if (!(weight.weight > 0)) continue;
+          if (weight.joint >= carriers.size()) {
+            fail_vertex(
+                instance, vertex,
+                fmt::format("a weight of joint {}, and its skin has {}", weight.joint, carriers.size()));
+          }
+          influences.push_back({carriers[weight.joint], weight.weight});
         }
-        if (!std::isfinite(weight.mWeight))
-          fail_vertex(mesh, weight.mVertexId, "a weight that is NaN or infinite");
-        if (weight.mWeight > 0) of_vertex[weight.mVertexId].push_back({moved_by, double{weight.mWeight}});
       }
-    }
-    for (std::vector<Influence>& influences : of_vertex) {
       normalize(influences);
-      if (influences.empty()) influences.push_back({carrier(node, Transform::Identity(), false), 1});
+      if (influences.empty()) influences.push_back({carrier(instance.node, instance.placed, false), 1});
       result_.influences.insert(result_.influences.end(), influences.begin(), influences.end());
       result_.influence_begin.push_back(result_.influences.size());
     }
@@ -239,26 +194,28 @@ class Gatherer {
     for (Influence& influence : influences) influence.weight /= sum;
   }
 
-  [[noreturn]] void fail_vertex(const aiMesh& mesh, unsigned vertex, const char* what) const {
-    file_.fail(fmt::format("mesh \"{}\", vertex {} has {}", mesh.mName.C_Str(), vertex, what));
+  [[noreturn]] void fail_vertex(const SceneInstance& instance, std::size_t vertex,
+                                const std::string& what) const {
+    scene_.fail(fmt::format("mesh \"{}\", vertex {} has {}", scene_.mesh_names[instance.mesh], vertex, what));
   }
 
-  const SceneFile& file_;
-  const aiScene& scene_;
-  const SceneNodes& nodes_;
+  const SceneReader& reader_;
+  const Scene& scene_;
   const Clip& clip_;
-  const std::vector<std::string>& wanted_;
+  std::vector<char> chosen_;       // [instance]
+  std::vector<Transform> global_;  // [node], where the clip begins
   SceneMesh result_;
-  std::set<unsigned> skinned_;                             // meshes with bones that have been taken
-  std::map<std::vector<double>, std::uint32_t> carriers_;  // by node and offset
-  std::set<std::string> names_, found_;
+  std::map<std::size_t, std::vector<ScenePart>> parts_;        // by mesh
+  std::set<std::pair<std::size_t, std::size_t>> skinned_;      // mesh and skin of those that have been taken
+  std::map<std::vector<double>, std::uint32_t> carriers_;      // by node and offset
+  std::map<std::size_t, std::vector<std::uint32_t>> of_skin_;  // carriers, by skin
 };
 
 }  // namespace
 
-SceneMesh gather_meshes(const SceneFile& file, const SceneNodes& nodes, const Clip& clip,
-                        const std::vector<std::string>& wanted) {
-  return Gatherer(file, nodes, clip, wanted).gather();
+SceneMesh gather_meshes(const SceneReader& reader, const Clip& clip, const std::vector<std::string>& wanted,
+                        std::vector<std::string>& notes) {
+  return Gatherer(reader, clip, choose_instances(reader.scene(), wanted, notes)).gather();
 }
 
 }  // namespace tvg::cli

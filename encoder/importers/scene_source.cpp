@@ -1,18 +1,15 @@
 #include "encoder/importers/scene_source.hpp"
 
 #include "encoder/importers/bytes.hpp"
-#include "encoder/importers/gltf_keys.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/keyframe_source.hpp"
-#include "encoder/importers/mesh_file.hpp"
-#include "encoder/importers/scene_file.hpp"
+#include "encoder/importers/scene_choice.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
 #include "encoder/importers/text_cursor.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
 
 #include <algorithm>
-#include <assimp/scene.h>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -65,16 +62,15 @@ class SceneSource final : public FrameSource {
   std::uint64_t next_ = 0;
   // Of the frame read last.
   std::vector<Transform> local_, global_, carriers_;
-  std::vector<double> weights_, channel_weights_;
+  std::vector<double> weights_;
   std::vector<float> joint_positions_;
 };
 
 void SceneSource::pose_morphs(double seconds) {
   weights_.assign(mesh_.slot_count, 0);
   for (const MorphSlots& slots : mesh_.slots) {
-    clip_.morphs[slots.channel].at(seconds, channel_weights_);
-    std::copy(channel_weights_.begin(), channel_weights_.end(),
-              weights_.begin() + static_cast<std::ptrdiff_t>(slots.first));
+    clip_.morphs[slots.channel].weights.at(seconds, false, false,
+                                           std::span(weights_).subspan(slots.first, slots.count));
   }
 }
 
@@ -99,29 +95,14 @@ Result<bool> SceneSource::read_frame(std::span<float> positions) {
   return true;
 }
 
-void note_clips(const SceneFile& file, std::size_t chosen, bool asked, std::vector<std::string>& notes) {
-  const aiScene& scene = file.scene();
-  if (scene.mNumAnimations < 2 || asked) return;
+void note_clips(const Scene& scene, std::size_t chosen, std::vector<std::string>& notes) {
+  if (scene.clip_names.size() < 2) return;
   std::vector<std::string> others;
-  for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
-    if (i != chosen) others.push_back(fmt::format("\"{}\"", scene.mAnimations[i]->mName.C_Str()));
+  for (std::size_t i = 0; i < scene.clip_names.size(); ++i) {
+    if (i != chosen) others.push_back(fmt::format("\"{}\"", scene.clip_names[i]));
   }
-  notes.push_back(fmt::format("{}: clip \"{}\" is taken; --clip picks another: {}", file.path(),
-                              scene.mAnimations[chosen]->mName.C_Str(), fmt::join(others, ", ")));
-}
-
-void note_keys(const SceneFile& file, std::size_t clip, std::vector<std::string>& notes) {
-  const GltfKeys keys = find_gltf_keys(file.path(), clip);
-  if (keys.has_curved_morphs) {
-    file.fail(
-        "morph weights along cubic splines (CUBICSPLINE) are not read; export the clip with linear keys");
-  }
-  if (!keys.has_steps && !keys.has_curves) return;
-  notes.push_back(fmt::format("{}: {} keys are read as linear ones; export the clip sampled to keep them",
-                              file.path(),
-                              keys.has_steps && keys.has_curves ? "stepped and curved"
-                              : keys.has_steps                  ? "stepped"
-                                                                : "curved"));
+  notes.push_back(fmt::format("{}: clip \"{}\" is taken; --clip picks another: {}", scene.path,
+                              scene.clip_names[chosen], fmt::join(others, ", ")));
 }
 
 void note_mesh(const std::string& path, const SceneMesh& mesh, std::size_t vertices_before,
@@ -137,39 +118,38 @@ void note_mesh(const std::string& path, const SceneMesh& mesh, std::size_t verti
   }
 }
 
-OpenedScene open_clip(const std::string& path, const SceneOptions& options) {
-  const std::string rate = options.fps.empty() ? kDefaultFps : options.fps;
-  const double fps = parse_rate(rate);
-  OpenedScene opened;
-  const SceneFile file(path);
-  SceneNodes nodes(file.scene());
-  Clip clip;
-  if (file.scene().mNumAnimations > 0 || !options.clip.empty()) {
-    const std::size_t index = options.clip.empty() ? 0 : find_clip(file, options.clip);
-    note_clips(file, index, !options.clip.empty(), opened.notes);
-    clip = read_clip(file, nodes, index);
-    note_keys(file, index, opened.notes);
-  } else {
-    opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
-  }
-  SceneMesh mesh = gather_meshes(file, nodes, clip, options.meshes);
-  const std::size_t vertices_before = mesh.positions.size();
-  weld(mesh);
-  note_mesh(path, mesh, vertices_before, opened.notes);
-  nodes.detach();
-  Metadata metadata = file.metadata();
-  metadata.emplace("fps", rate);
-  if (!clip.name.empty() && is_plain_text(clip.name)) metadata.emplace("name", clip.name);
-  opened.source = std::make_unique<SceneSource>(path, std::move(nodes), std::move(clip), std::move(mesh),
-                                                std::move(metadata), fps);
-  return opened;
-}
-
 }  // namespace
 
 OpenedScene open_scene(const std::string& path, const SceneOptions& options) {
   if (const auto frames = keyframe_count(path)) return open_keyframes(path, *frames, options);
-  return open_clip(path, options);
+  return open_scene(*read_scene(path), options);
+}
+
+OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
+  const std::string rate = options.fps.empty() ? kDefaultFps : options.fps;
+  const double fps = parse_rate(rate);
+  OpenedScene opened;
+  const Scene& scene = reader.scene();
+  const std::string& path = scene.path;
+  opened.notes = scene.notes;
+  Clip clip;
+  if (!scene.clip_names.empty() || !options.clip.empty()) {
+    const std::size_t index = options.clip.empty() ? 0 : find_clip(scene, options.clip);
+    if (options.clip.empty()) note_clips(scene, index, opened.notes);
+    clip = reader.read_clip(index, opened.notes);
+  } else {
+    opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
+  }
+  SceneMesh mesh = gather_meshes(reader, clip, options.meshes, opened.notes);
+  const std::size_t vertices_before = mesh.positions.size();
+  weld(mesh);
+  note_mesh(path, mesh, vertices_before, opened.notes);
+  Metadata metadata = scene.metadata;
+  metadata.emplace("fps", rate);
+  if (!clip.name.empty() && is_plain_text(clip.name)) metadata.emplace("name", clip.name);
+  opened.source = std::make_unique<SceneSource>(path, scene.nodes, std::move(clip), std::move(mesh),
+                                                std::move(metadata), fps);
+  return opened;
 }
 
 }  // namespace tvg::cli

@@ -9,6 +9,8 @@
 
 namespace tvg::cli {
 
+class SceneReader;
+
 /// A scene as frames, with its skeleton, and what a user may want to know of it.
 struct OpenedScene {
   std::unique_ptr<FrameSource> source;
@@ -21,5 +23,8 @@ struct OpenedScene {
 /// as it is. Throws ToolError: kUsage (a clip, mesh or rate that is not there), kIo,
 /// kInvalidInput.
 OpenedScene open_scene(const std::string& path, const SceneOptions& options);
+
+/// The same of a scene that has been opened already, and holds no mesh for each frame.
+OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options);
 
 }  // namespace tvg::cli

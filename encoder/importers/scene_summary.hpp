@@ -31,6 +31,7 @@ struct SceneSummary {
   std::uint64_t welded_vertices = 0;       ///< of all meshes together; 0 where there is none with faces
   Skeleton skeleton;                       ///< the joints that move meshes; without a mesh, all that move
   Metadata metadata;                       ///< units and up axis, where the format says them
+  std::vector<std::string> notes;          ///< what is lost or guessed, of clips in the first
 };
 
 /// Reads a scene or a BVH file; `fps` is the rate that frames are counted at. Throws ToolError: kUsage

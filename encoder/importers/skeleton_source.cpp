@@ -2,14 +2,12 @@
 
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
-#include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 namespace tvg::cli {
@@ -19,16 +17,19 @@ namespace {
 /// The joints of a BVH file over time.
 class Motion {
  public:
-  explicit Motion(const SceneFile& file) : nodes_(file.scene()) {
-    if (file.scene().mNumAnimations == 0) file.fail("it holds no motion");
-    clip_ = read_clip(file, nodes_, 0);
+  explicit Motion(const std::string& path) {
+    const std::unique_ptr<SceneReader> reader = read_scene(path);
+    const Scene& scene = reader->scene();
+    if (scene.clip_names.empty()) scene.fail("it holds no motion");
+    std::vector<std::string> notes;
+    clip_ = reader->read_clip(0, notes);
+    nodes_ = scene.nodes;
     joints_ = find_moved_nodes(nodes_, clip_);
-    if (joints_.nodes.empty()) file.fail("it holds no joints");
+    if (joints_.nodes.empty()) scene.fail("it holds no joints");
     for (const NodeChannel& channel : clip_.nodes) {
       if (channel.rotations.times.size() > times_.size()) times_ = channel.rotations.times;
     }
     rest_ = nodes_.rest_pose();
-    nodes_.detach();
   }
 
   const Skeleton& skeleton() const { return joints_.skeleton; }
@@ -52,10 +53,10 @@ class Motion {
 class SkeletonSource final : public SourceDecorator {
  public:
   /// Without a rate, frames are taken one to one.
-  SkeletonSource(std::unique_ptr<FrameSource> source, const SceneFile& file, Motion motion,
-                 const SkeletonSpec& spec, std::optional<double> fps)
+  SkeletonSource(std::unique_ptr<FrameSource> source, Motion motion, const SkeletonSpec& spec,
+                 std::optional<double> fps)
       : SourceDecorator(std::move(source)),
-        file_(file.path()),
+        file_(spec.file),
         motion_(std::move(motion)),
         fps_(fps),
         first_(spec.first_frame),
@@ -112,8 +113,7 @@ std::unique_ptr<FrameSource> attach_skeleton(std::unique_ptr<FrameSource> source
     throw ToolError(ExitStatus::kUsage,
                     fmt::format("--skeleton {}: only BVH files (.bvh) are read", spec.file));
   }
-  const SceneFile file(spec.file);
-  Motion motion(file);
+  Motion motion(spec.file);
   const std::size_t frames = motion.times().size();
   std::optional<double> fps;
   if (frames != spec.frame_count) {
@@ -132,7 +132,7 @@ std::unique_ptr<FrameSource> attach_skeleton(std::unique_ptr<FrameSource> source
                                     ? fmt::format("; after {:.6g} of {:.6g} s they hold still", lasts, needed)
                                     : ""));
   }
-  return std::make_unique<SkeletonSource>(std::move(source), file, std::move(motion), spec, fps);
+  return std::make_unique<SkeletonSource>(std::move(source), std::move(motion), spec, fps);
 }
 
 }  // namespace tvg::cli

@@ -100,18 +100,14 @@ void write_other_seeds(const fs::path& target) {
   write_file(target / "skeleton_fuzz/hand",
              R"({"joints":[{"name":"a","parent":null},{"name":"b","parent":0}],)"
              R"("frames":[[[0,0,0],[1,2.5,-3e2]],[[0,0,0],[1,1,1]]],"heaviest_joint":[0,1,1,0]})");
-  const std::string json = R"({"animations":[{"channels":[{"sampler":0,"target":{"path":"weights"}}],)"
-                           R"("samplers":[{"interpolation":"CUBICSPLINE"},{"interpolation":"STEP"}]}]})";
   const auto word = [](std::size_t value) {
     return std::string{static_cast<char>(value), static_cast<char>(value >> 8), 0, 0};
   };
-  write_file(target / "scene_header_fuzz/json", std::string(1, '\0') + json);
-  write_file(
-      target / "scene_header_fuzz/glb",
-      std::string(1, '\0') + "glTF" + word(2) + word(20 + json.size()) + word(json.size()) + "JSON" + json);
+  write_file(target / "scene_header_fuzz/collada",
+             "<Name_array>STEP LINEAR</Name_array><Name_array>BEZIER</Name_array>");
   for (const std::string signature : {"IDP2", "IDP3", "IDPC", "IDPO"}) {
     write_file(target / "scene_header_fuzz" / signature,
-               std::string(1, '\0') + signature + std::string(36, '\1') + word(3) + std::string(36, '\1'));
+               signature + std::string(36, '\1') + word(3) + std::string(36, '\1'));
   }
 }
 

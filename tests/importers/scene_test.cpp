@@ -1,12 +1,10 @@
-#include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_summary.hpp"
-#include "tests/importers/gltf_builder.hpp"
+#include "tests/importers/scene_fixture.hpp"
 
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
-#include <numbers>
 
 namespace tvg::cli {
 namespace {
@@ -16,56 +14,8 @@ using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
-constexpr float kHalf = static_cast<float>(std::numbers::sqrt2 / 2);  // sine and cosine of 45 degrees
-
-class Scene : public ::testing::Test {
- protected:
-  OpenedSource open(GltfBuilder& gltf, const SceneOptions& options = {}) {
-    SourceSpec spec{{folder_.write("scene.gltf", gltf.text())}};
-    spec.scene = options;
-    return open_source(spec);
-  }
-  ToolError refusal(GltfBuilder& gltf, const SceneOptions& options) {
-    return thrown_by([&] { open(gltf, options); });
-  }
-  TemporaryFolder folder_;
-};
-
-void expect_vertex(const FramePositions& frame, std::size_t vertex, float x, float y, float z) {
-  EXPECT_NEAR(frame[3 * vertex], x, 1e-6) << "vertex " << vertex;
-  EXPECT_NEAR(frame[3 * vertex + 1], y, 1e-6) << "vertex " << vertex;
-  EXPECT_NEAR(frame[3 * vertex + 2], z, 1e-6) << "vertex " << vertex;
-}
-
-/// A strip of six vertices, (0 or 1, row) for rows 0 to 2, whose upper bone at (0, 1) turns by 90 degrees
-/// about z within a second. An ancestor moves the bones by 10 along x; the node of the mesh stands elsewhere,
-/// which must not matter.
-GltfBuilder skinned_strip() {
-  GltfBuilder gltf;
-  nlohmann::json primitive = gltf.primitive({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0},
-                                            {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4});
-  std::vector<std::uint8_t> joints;
-  for (int vertex = 0; vertex < 6; ++vertex) joints.insert(joints.end(), {0, 1, 0, 0});
-  primitive["attributes"]["JOINTS_0"] = gltf.add("VEC4", joints);
-  primitive["attributes"]["WEIGHTS_0"] = gltf.add<float>(
-      "VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 0.5F, 0.5F, 0, 0, 0.5F, 0.5F, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0});
-  gltf.json["meshes"] = {{{"name", "Strip"}, {"primitives", {primitive}}}};
-  gltf.json["nodes"] = {{{"name", "StripNode"}, {"mesh", 0}, {"skin", 0}, {"translation", {5, 5, 5}}},
-                        {{"name", "Armature"}, {"children", {2}}, {"translation", {10, 0, 0}}},
-                        {{"name", "Lower"}, {"children", {3}}},
-                        {{"name", "Upper"}, {"translation", {0, 1, 0}}}};
-  const int bind = gltf.add<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0,  0, 1,  //
-                                            1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1});
-  gltf.json["skins"] = {{{"joints", {2, 3}}, {"inverseBindMatrices", bind}}};
-  gltf.animate(0, 3, "rotation", {0, 1}, "VEC4", {0, 0, 0, 1, 0, 0, kHalf, kHalf});
-  gltf.json["animations"][0]["name"] = "bend";
-  set_roots(gltf, {0, 1});
-  return gltf;
-}
-
-TEST_F(Scene, BlendsASkinLinearlyAndTurnsAlongTheArc) {
+TEST_F(Scenes, BlendsASkinLinearlyAndTurnsAlongTheArc) {
   GltfBuilder gltf = skinned_strip();
   const OpenedSource opened = open(gltf, {"", {}, "2"});
   EXPECT_EQ(opened.source->frame_count(), 3U);
@@ -88,7 +38,7 @@ TEST_F(Scene, BlendsASkinLinearlyAndTurnsAlongTheArc) {
   EXPECT_EQ(metadata, (Metadata{{"fps", "2"}, {"name", "bend"}, {"units", "m"}, {"up", "y"}}));
 }
 
-TEST_F(Scene, BringsItsSkeletonAlong) {
+TEST_F(Scenes, BringsItsSkeletonAlong) {
   GltfBuilder gltf = skinned_strip();
   gltf.animate(0, 2, "translation", {0, 1}, "VEC3", {0, 0, 0, 0, 0, 4});
   SourceSpec spec{{folder_.write("scene.gltf", gltf.text())}, FrameRange{1, 2}};
@@ -106,19 +56,7 @@ TEST_F(Scene, BringsItsSkeletonAlong) {
   EXPECT_FALSE(*opened.source->read_frame(positions));
 }
 
-/// A triangle with two morph targets: one lifts vertex 2, the other moves vertex 1.
-GltfBuilder morphing_triangle() {
-  GltfBuilder gltf;
-  nlohmann::json primitive = gltf.primitive({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
-  primitive["targets"] = {{{"POSITION", gltf.add<float>("VEC3", {0, 0, 0, 0, 0, 0, 0, 0, 8})}},
-                          {{"POSITION", gltf.add<float>("VEC3", {0, 0, 0, 2, 0, 0, 0, 0, 0})}}};
-  gltf.json["meshes"] = {{{"name", "Face"}, {"primitives", {primitive}}, {"weights", {0.25, 0}}}};
-  gltf.json["nodes"] = {{{"name", "FaceNode"}, {"mesh", 0}, {"translation", {0, 0, 1}}}};
-  set_roots(gltf, {0});
-  return gltf;
-}
-
-TEST_F(Scene, AddsMorphTargetsByTheirWeights) {
+TEST_F(Scenes, AddsMorphTargetsByTheirWeights) {
   GltfBuilder gltf = morphing_triangle();
   gltf.animate(0, 0, "weights", {0, 1}, "SCALAR", {0, 1, 1, 0});
   const OpenedSource opened = open(gltf, {"", {}, "4"});
@@ -132,7 +70,7 @@ TEST_F(Scene, AddsMorphTargetsByTheirWeights) {
   }
 }
 
-TEST_F(Scene, WithoutAClipIsOneFrameWithTheWeightsItHas) {
+TEST_F(Scenes, WithoutAClipIsOneFrameWithTheWeightsItHas) {
   GltfBuilder gltf = morphing_triangle();
   const OpenedSource opened = open(gltf);
   const Frames read = read_all(*opened.source);
@@ -143,25 +81,7 @@ TEST_F(Scene, WithoutAClipIsOneFrameWithTheWeightsItHas) {
   EXPECT_THAT(refusal(gltf, {"walk", {}, ""}).what(), HasSubstr("it has no clips at all"));
 }
 
-/// Two triangles in nodes of their own below one that is scaled by two; one is moved by either of two clips.
-GltfBuilder two_triangles() {
-  GltfBuilder gltf;
-  const nlohmann::json left = gltf.primitive({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
-  const nlohmann::json right = gltf.primitive({0, 0, 0, 0, 0, 1, 0, 1, 0}, {0, 2, 1});
-  gltf.json["meshes"] = {{{"name", "LeftMesh"}, {"primitives", {left}}},
-                         {{"name", "RightMesh"}, {"primitives", {right}}}};
-  gltf.json["nodes"] = {{{"name", "Both"}, {"children", {1, 2}}, {"scale", {2, 2, 2}}},
-                        {{"name", "LeftNode"}, {"mesh", 0}},
-                        {{"name", "RightNode"}, {"mesh", 1}, {"translation", {7, 0, 0}}}};
-  gltf.animate(0, 1, "translation", {0, 1}, "VEC3", {0, 0, 0, 4, 0, 0});
-  gltf.animate(1, 1, "translation", {2, 2.5F}, "VEC3", {0, 1, 0, 0, 3, 0});
-  gltf.json["animations"][0]["name"] = "walk";
-  gltf.json["animations"][1]["name"] = "jump";
-  set_roots(gltf, {0});
-  return gltf;
-}
-
-TEST_F(Scene, MovesNodesOfMeshesWithoutASkin) {
+TEST_F(Scenes, MovesNodesOfMeshesWithoutASkin) {
   GltfBuilder gltf = two_triangles();
   const OpenedSource opened = open(gltf, {"", {}, "2"});
   const Frames read = read_all(*opened.source);
@@ -175,7 +95,7 @@ TEST_F(Scene, MovesNodesOfMeshesWithoutASkin) {
   EXPECT_EQ(opened.source->mesh().faces, (std::vector<Face>{{0, 1, 2}, {3, 5, 4}}));
 }
 
-TEST_F(Scene, TakesTheClipThatIsNamedOrNumbered) {
+TEST_F(Scenes, TakesTheClipThatIsNamedOrNumbered) {
   GltfBuilder gltf = two_triangles();
   for (const std::string clip : {"jump", "1"}) {
     const OpenedSource opened = open(gltf, {clip, {}, "2"});
@@ -190,7 +110,7 @@ TEST_F(Scene, TakesTheClipThatIsNamedOrNumbered) {
   EXPECT_THAT(error.what(), HasSubstr("it has 0 \"walk\", 1 \"jump\""));
 }
 
-TEST_F(Scene, TakesTheMeshesThatAreNamed) {
+TEST_F(Scenes, TakesTheMeshesThatAreNamed) {
   GltfBuilder gltf = two_triangles();
   for (const std::string name : {"RightMesh", "RightNode"}) {
     const OpenedSource opened = open(gltf, {"", {name}, "2"});
@@ -204,7 +124,7 @@ TEST_F(Scene, TakesTheMeshesThatAreNamed) {
   EXPECT_THAT(error.what(), AllOf(HasSubstr("--mesh Head"), HasSubstr("\"LeftMesh\"")));
 }
 
-TEST_F(Scene, ShowsTheLastKeyInTheLastFrameWhateverTheRate) {
+TEST_F(Scenes, ShowsTheLastKeyInTheLastFrameWhateverTheRate) {
   GltfBuilder gltf = two_triangles();
   for (const auto& [fps, frames] : {std::pair("30", 31U), {"25", 26U}, {"1.5", 3U}, {"24000/1001", 25U}}) {
     const OpenedSource opened = open(gltf, {"walk", {}, fps});
@@ -216,7 +136,7 @@ TEST_F(Scene, ShowsTheLastKeyInTheLastFrameWhateverTheRate) {
   }
 }
 
-TEST_F(Scene, WeldsSeamsBetweenMaterialsAndLeavesApartWhatMovesApart) {
+TEST_F(Scenes, WeldsSeamsBetweenMaterialsAndLeavesApartWhatMovesApart) {
   GltfBuilder gltf = skinned_strip();
   // The same strip in two primitives: the middle row is in both, once with other weights on its right.
   nlohmann::json upper = gltf.primitive({0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0}, {0, 1, 3, 0, 3, 2});
@@ -232,7 +152,7 @@ TEST_F(Scene, WeldsSeamsBetweenMaterialsAndLeavesApartWhatMovesApart) {
   EXPECT_EQ(opened.source->mesh().faces[4], (Face{2, 6, 5}));
 }
 
-TEST_F(Scene, ListsWhatItHolds) {
+TEST_F(Scenes, ListsWhatItHolds) {
   GltfBuilder gltf = skinned_strip();
   const SceneSummary summary = summarize_scene(folder_.write("a.gltf", gltf.text()), 10);
   ASSERT_EQ(summary.clips.size(), 1U);
@@ -248,7 +168,7 @@ TEST_F(Scene, ListsWhatItHolds) {
   EXPECT_THAT(summary.skeleton.joint_names, ElementsAre("Lower", "Upper"));
 }
 
-TEST_F(Scene, RefusesWhatCannotBeEncoded) {
+TEST_F(Scenes, RefusesWhatCannotBeEncoded) {
   GltfBuilder gltf = skinned_strip();
   EXPECT_THAT(refusal(gltf, {"", {}, "0"}).what(), HasSubstr("--fps 0: write frames per second"));
   const std::string scene = folder_.write("scene.gltf", gltf.text());
@@ -275,18 +195,7 @@ TEST_F(Scene, RefusesWhatCannotBeEncoded) {
   EXPECT_THAT(error->message, AllOf(HasSubstr("scene.gltf: in frame "), HasSubstr("NaN or infinite")));
 }
 
-TEST_F(Scene, SaysWhereKeysAreNotJoinedAsTheFileWantsThem) {
-  GltfBuilder stepped = two_triangles();
-  stepped.json["animations"][0]["samplers"][0]["interpolation"] = "STEP";
-  EXPECT_THAT(open(stepped).notes, Contains(HasSubstr("stepped keys are read as linear ones")));
-  EXPECT_THAT(open(stepped, {"jump", {}, ""}).notes, Not(Contains(HasSubstr("keys"))));
-  GltfBuilder curved = morphing_triangle();
-  curved.animate(0, 0, "weights", {0, 1}, "SCALAR", {9, 9, 0, 0, 9, 9, 9, 9, 1, 1, 9, 9});
-  curved.json["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE";
-  EXPECT_THAT(refusal(curved, {}).what(), HasSubstr("morph weights along cubic splines"));
-}
-
-TEST_F(Scene, ReadsMd5WithTheClipBesideIt) {
+TEST_F(Scenes, ReadsMd5WithTheClipBesideIt) {
   // assimp 5.2 passes over a line of the header that follows another one without an empty line between.
   const std::string mesh =
       "MD5Version 10\ncommandline \"\"\n\nnumJoints 2\n\nnumMeshes 1\n\njoints {\n"
@@ -316,7 +225,7 @@ TEST_F(Scene, ReadsMd5WithTheClipBesideIt) {
   }
 }
 
-TEST_F(Scene, RefusesVertexAnimationThatWouldStandStill) {
+TEST_F(Scenes, RefusesVertexAnimationThatWouldStandStill) {
   ByteString md3(false);
   md3.text("IDP3")
       .add(std::int32_t{15})
@@ -329,7 +238,7 @@ TEST_F(Scene, RefusesVertexAnimationThatWouldStandStill) {
   EXPECT_THAT(error.what(), HasSubstr("a.md3: it holds a mesh for each of 3 frames"));
 }
 
-TEST_F(Scene, RefusesAClipThatLastsForever) {
+TEST_F(Scenes, RefusesAClipThatLastsForever) {
   GltfBuilder gltf = two_triangles();
   gltf.animate(0, 1, "scale", {0, 1e12F}, "VEC3", {1, 1, 1, 1, 1, 1});
   EXPECT_THAT(refusal(gltf, {}).what(), HasSubstr("clip \"walk\" lasts 1e+12 s"));

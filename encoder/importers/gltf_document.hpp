@@ -1,0 +1,34 @@
+#pragma once
+#include "encoder/importers/gltf_model.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tvg::cli {
+
+/// A buffer as the JSON describes it.
+struct GltfBufferInfo {
+  std::optional<std::string> uri;
+  std::uint64_t size = 0;    ///< bytes, as promised
+  bool is_fallback = false;  ///< has no bytes: all its views are compressed
+};
+
+/// A glTF file taken apart: its JSON in tinygltf's form, by number, without buffers, images and what belongs
+/// to materials; where the bytes are.
+struct GltfDocument {
+  int version = 0;        ///< the major one; of others than 2 nothing else is there
+  tinygltf::Model model;  ///< an accessor without a view has the number of the last view, which is added
+  std::vector<GltfBufferInfo> buffers;
+  std::optional<std::string_view> binary;  ///< the chunk of a binary file; points into its bytes
+  std::vector<std::string> notes;          ///< extensions that are passed over
+};
+
+/// Takes apart the bytes of a .gltf or .glb file, whichever they are; `path` is its name for messages. Throws
+/// ImportError (kTruncated, kInvalidInput): sizes that promise more than there is, JSON that is not
+/// well-formed or nested too deeply, extensions that the file requires and that are not read.
+GltfDocument read_gltf_document(const std::string& path, std::string_view bytes);
+
+}  // namespace tvg::cli
