@@ -12,12 +12,13 @@ namespace tvg::cli {
 
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others) {
   command
-      .add_option(
-          "input", arguments.inputs,
-          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD; - for standard input), or a sequence of "
-          "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the files, or a scene (glTF 2, FBX, COLLADA, X, "
-          "MD5, MD2, ...)" +
-              others)
+      .add_option("input", arguments.inputs,
+                  "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD; - for standard input), or a "
+                  "sequence of "
+                  "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the "
+                  "files, or a scene (glTF 2, FBX, COLLADA, X, "
+                  "MD5, MD2, ...)" +
+                      others)
       ->required();
   command.add_option("--frames", arguments.frames, "frames A-B only, counted from 0");
   command
@@ -25,13 +26,15 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
                   "numbers that a sequence leaves out, and files without faces: hold the frame before, skip "
                   "them, or refuse (default; a number every N is no gap)")
       ->check(CLI::IsMember({"hold", "skip", "refuse"}));
-  command.add_option("--weld", arguments.weld,
-                     "corners of STL are one vertex where they lie no further apart than this, in the mesh's "
-                     "units (0.001) or as a share of the diagonal of the first frame's box (default 0.0001%)");
+  command.add_option(
+      "--weld", arguments.weld,
+      "corners of STL are one vertex where they lie no further apart than this, in the mesh's "
+      "units (0.001) or as a share of the diagonal of the first frame's box (default 0.0001%)");
   command
-      .add_option("--cache-up", arguments.cache_up,
-                  "the axis that is up in the cache, where its mesh has the other (Blender: OBJ y, MDD z): the "
-                  "cache is turned to the mesh")
+      .add_option(
+          "--cache-up", arguments.cache_up,
+          "the axis that is up in the cache, where its mesh has the other (Blender: OBJ y, MDD z): the "
+          "cache is turned to the mesh")
       ->check(CLI::IsMember({"y", "z"}));
   command.add_option("--clip", arguments.clip,
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");

@@ -26,8 +26,9 @@ struct InputArguments {
   std::string cache_up;
 };
 
-/// Declares the inputs, --frames, --gaps, --weld, --cache-up, --clip, --mesh and --skeleton; `arguments` must outlive the parsing. --fps
-/// is left to the command: what it means differs. `others`: what the command takes beside these inputs.
+/// Declares the inputs, --frames, --gaps, --weld, --cache-up, --clip, --mesh and --skeleton; `arguments` must
+/// outlive the parsing. --fps is left to the command: what it means differs. `others`: what the command takes
+/// beside these inputs.
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others = "");
 
 /// Declares --skeleton alone.

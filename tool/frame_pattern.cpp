@@ -68,8 +68,8 @@ std::string FramePattern::signed_path(std::int64_t number) const {
     const std::size_t end = std::min(tail.find('/', begin + 1), tail.size());
     const std::string part = tail.substr(begin, end - begin);
     const std::optional<Placeholder> place = find_printf(part);
-    expanded += place ? part.substr(0, place->begin) + padded(number, place->width) + part.substr(place->end)
-                      : part;
+    expanded +=
+        place ? part.substr(0, place->begin) + padded(number, place->width) + part.substr(place->end) : part;
     begin = end;
   }
   return folder + prefix + padded(number, width) + suffix + expanded;
@@ -91,7 +91,8 @@ std::optional<std::int64_t> FramePattern::number_of(std::string_view name) const
 }
 
 std::string FramePattern::text() const {
-  return folder + prefix + (width > 1 ? "%0" + std::to_string(width) + "d" : std::string("%d")) + suffix + tail;
+  return folder + prefix + (width > 1 ? "%0" + std::to_string(width) + "d" : std::string("%d")) + suffix +
+         tail;
 }
 
 std::optional<FramePattern> parse_frame_pattern(const std::string& path) {

@@ -30,7 +30,8 @@ void for_each_named(const std::string& path, const std::optional<FramePattern>& 
   use(path);
   std::error_code ignored;
   if (!pattern || fs::exists(path, ignored)) return;
-  for (const NumberedFile& file : numbered_files(*pattern).value_or(std::vector<NumberedFile>{})) use(file.path);
+  for (const NumberedFile& file : numbered_files(*pattern).value_or(std::vector<NumberedFile>{}))
+    use(file.path);
 }
 
 /// Calls `use(path)` for the mesh files of a folder and, where it has any, of the folders in it.
@@ -62,19 +63,17 @@ void InputFiles::add(const std::string& path) {
     for_each_mesh(path, 1, add_file);
   } else {
     for_each_named(path, parse_input_pattern(path), add_file);
-    if (mesh_format(path)) {
-      for (const std::string& cache : caches_beside(path)) add_file(cache);
-    }
   }
 }
 
 void InputFiles::add(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) add(path);
+  if (paths.size() != 1 || !mesh_format(paths[0])) return;
+  for (const std::string& cache : caches_beside(paths[0])) add(cache);
 }
 
 void InputFiles::check_output(const std::string& path) const {
-  for_each_named(path, parse_frame_pattern(path),
-                 [&](const std::string& file) { check_file(file, path); });
+  for_each_named(path, parse_frame_pattern(path), [&](const std::string& file) { check_file(file, path); });
 }
 
 void InputFiles::check_file(const std::string& file, const std::string& asked) const {

@@ -27,6 +27,11 @@ std::optional<Origin> origin_of(const Metadata& metadata) {
   return origin;
 }
 
+std::string relative_note(const Origin& origin, const std::string& format) {
+  return fmt::format("{} has float32, so its positions are relative to the origin {}: add it in double",
+                     format, origin_text(origin));
+}
+
 bool is_zero(const Origin& origin) {
   return origin == Origin{};
 }

@@ -23,4 +23,7 @@ std::optional<Origin> origin_of(const Metadata& metadata);
 /// Whether it is (0, 0, 0): coordinates are what they are.
 bool is_zero(const Origin& origin);
 
+/// What is to be said of output in float32: its positions are relative to the origin still.
+std::string relative_note(const Origin& origin, const std::string& format);
+
 }  // namespace tvg::cli

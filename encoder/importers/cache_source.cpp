@@ -54,7 +54,8 @@ class FrameRate {
   std::string uneven_note() const {
     if (even_) return "";
     return fmt::format(
-        "its times, {:.6g} to {:.6g}, are uneven from frame {} on, and are lost: the stream has its frames at even "
+        "its times, {:.6g} to {:.6g}, are uneven from frame {} on, and are lost: the stream has its frames "
+        "at even "
         "distances (--fps says how many a second)",
         first_, last_, first_uneven_);
   }
@@ -164,7 +165,7 @@ void CacheSource::read_header(std::vector<std::string>& notes) {
   if (layout_.is_pc2) {
     read_pc2_header(header);
     count_unfinished(notes);
-    check_counts(layout_.points, layout_.frames);
+    check_counts(static_cast<std::int32_t>(layout_.points), static_cast<std::int32_t>(layout_.frames));
     check_size(notes);
   } else {
     open_ended_ = false;  // the table of times has an end
@@ -191,19 +192,16 @@ void CacheSource::read_pc2_header(std::span<char> header) {
 /// A program that writes a PC2 front to back fills in the number of frames at the end; where it did not get
 /// there, the header has 0 or -1, and the size of the file tells.
 void CacheSource::count_unfinished(std::vector<std::string>& notes) {
-  if (open_ended_ || (layout_.frames != 0 && layout_.frames != kUnknownCount)) return;
+  if (open_ended_ || !file_.size() || (layout_.frames != 0 && layout_.frames != kUnknownCount)) return;
   if (layout_.points != mesh_.vertex_count || layout_.points == 0) return;
   const std::string said = layout_.frames == 0 ? "0" : "-1";
-  if (!file_.size()) {
-    open_ended_ = true;
-    notes.push_back(fmt::format("{}: its header says {} frames, which was never put right: frames are read until it ends", file_.name(), said));
-    return;
-  }
-  const std::uint64_t held = (std::max(*file_.size(), layout_.data_offset) - layout_.data_offset) / layout_.frame_size();
+  const std::uint64_t held =
+      (std::max(*file_.size(), layout_.data_offset) - layout_.data_offset) / layout_.frame_size();
   if (held == 0) return;
   layout_.frames = held;
-  notes.push_back(fmt::format("{}: its header says {} frames, which was never put right: {} follow and are taken",
-                              file_.name(), said, held));
+  notes.push_back(
+      fmt::format("{}: its header says {} frames, which was never put right: {} follow and are taken",
+                  file_.name(), said, held));
 }
 
 void CacheSource::check_counts(std::int64_t points, std::int64_t frames) const {
@@ -228,8 +226,9 @@ void CacheSource::check_size(std::vector<std::string>& notes) const {
     fail_at_end(size, fmt::format("frame {}; {}", frame, promise()));
   }
   if (size > layout_.file_size()) {
-    notes.push_back(fmt::format("{}: {} bytes follow byte {}, where the file should end, and are left out: {}",
-                                file_.name(), size - layout_.file_size(), layout_.file_size(), promise()));
+    notes.push_back(
+        fmt::format("{}: {} bytes follow byte {}, where the file should end, and are left out: {}",
+                    file_.name(), size - layout_.file_size(), layout_.file_size(), promise()));
   }
 }
 
@@ -286,8 +285,9 @@ bool CacheSource::read_positions(std::span<float> positions) {
   }
   const std::size_t bad = find_non_finite(positions);
   if (bad < positions.size()) {
-    fail(fmt::format("frame {}, vertex {} has a coordinate that is NaN or infinite (byte {})", next_, bad / 3,
-                     layout_.data_offset + next_ * layout_.frame_size() + bad * (layout_.half ? 2 : sizeof(float))));
+    fail(fmt::format(
+        "frame {}, vertex {} has a coordinate that is NaN or infinite (byte {})", next_, bad / 3,
+        layout_.data_offset + next_ * layout_.frame_size() + bad * (layout_.half ? 2 : sizeof(float))));
   }
   ++next_;
   return true;

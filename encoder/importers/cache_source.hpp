@@ -12,10 +12,10 @@ namespace tvg::cli {
 /// disk one at a time. "-" is standard input, which cannot be rewound. `mesh` gives the connectivity and
 /// `metadata` what else is known; `mesh_file` names the mesh in messages. An MDD cache with evenly spaced
 /// times adds its `fps`; a PC2 cache does not, because programs disagree on what its sample rate means.
-/// `open_ended` is as in SourceSpec. `notes` gets what a user may want to know: a header whose number of frames
-/// was never filled in, bytes behind the last frame, uneven times.
-/// Throws ImportError: kIo, kInvalidInput (the vertex counts differ, no frames, a pipe with more bytes than promised),
-/// kTruncated (fewer bytes than promised).
+/// `open_ended` is as in SourceSpec. `notes` gets what a user may want to know: a header whose number of
+/// frames was never filled in, bytes behind the last frame, uneven times. Throws ImportError: kIo,
+/// kInvalidInput (the vertex counts differ, no frames, a pipe with more bytes than promised), kTruncated
+/// (fewer bytes than promised).
 std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
                                         const std::string& mesh_file, std::vector<std::string>& notes,
                                         bool open_ended = false);

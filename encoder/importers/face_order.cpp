@@ -45,8 +45,8 @@ class SortedFaces {
     faces_.push_back({begin, corners_.size() - begin, triangle});
   }
 
-  /// Where a face begins so that its corners are in the smallest order; a corner may come twice. Of faces whose
-  /// smallest corner comes often only the first few are looked at: nobody draws them.
+  /// Where a face begins so that its corners are in the smallest order; a corner may come twice. Of faces
+  /// whose smallest corner comes often only the first few are looked at: nobody draws them.
   template <class Iterator>
   static Iterator smallest_turn(Iterator first, Iterator last) {
     const auto size = last - first;

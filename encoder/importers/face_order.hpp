@@ -17,8 +17,8 @@ class FaceOrder {
   /// `faces` and `polygons` as a MeshFile has them.
   FaceOrder(std::vector<Face> faces, std::vector<Polygon> polygons);
 
-  /// What tells the faces of `other` from these: "has 3 triangles where FILE has 4", where FILE is `file`, the
-  /// name of these; empty where they are the same.
+  /// What tells the faces of `other` from these: "has 3 triangles where FILE has 4", where FILE is `file`,
+  /// the name of these; empty where they are the same.
   std::string difference(const MeshFile& other, const std::string& file) const;
 
  private:

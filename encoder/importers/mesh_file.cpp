@@ -113,7 +113,8 @@ Origin origin_near(const BoundingBox& box) {
   for (double& coordinate : origin) {
     // Through text, because a multiple of 0.01 in double has digits behind it that nobody wrote.
     const int digits = std::clamp(static_cast<int>(-std::log10(unit)), 0, 17);
-    coordinate = std::strtod(fmt::format("{:.{}f}", std::round(coordinate / unit) * unit, digits).c_str(), nullptr);
+    coordinate =
+        std::strtod(fmt::format("{:.{}f}", std::round(coordinate / unit) * unit, digits).c_str(), nullptr);
     if (coordinate == 0) coordinate = 0;  // not -0
   }
   return origin;
@@ -171,8 +172,9 @@ void read_located_mesh(const std::string& path, MeshFormat format, std::string& 
 void apply_weld(const Weld& weld, MeshFile& mesh) {
   // Vertices are numbered by first appearance, so a vertex never lies behind its first corner.
   for (std::size_t vertex = 0; vertex < weld.first_point.size(); ++vertex) {
-    std::copy_n(mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * std::size_t{weld.first_point[vertex]}),
-                3, mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * vertex));
+    std::copy_n(
+        mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * std::size_t{weld.first_point[vertex]}), 3,
+        mesh.positions.begin() + static_cast<std::ptrdiff_t>(3 * vertex));
   }
   mesh.positions.resize(3 * std::size_t{weld.vertex_count()});
   for (Face& face : mesh.faces) {

@@ -30,8 +30,9 @@ struct MeshFile {
   std::vector<Face> faces;        ///< [face][corner]; a polygon is a fan around its first corner
   std::vector<Polygon> polygons;  ///< faces of the file with more than three corners, in their order
   std::string name;               ///< of the first object (OBJ's o or g), or empty
-  std::vector<std::uint32_t> misplaced;  ///< vertices without a place (NaN), which no face uses: they are at 0
-  std::vector<std::string> notes;        ///< what was left out or put right: "1 face with ... left out"
+  std::vector<std::uint32_t>
+      misplaced;                   ///< vertices without a place (NaN), which no face uses: they are at 0
+  std::vector<std::string> notes;  ///< what was left out or put right: "1 face with ... left out"
   /// Where it is set, before the file is read, coordinates are read in double and relative to it.
   std::optional<Origin> origin;
   bool finer_than_float = false;  ///< with an origin: the file has a coordinate that float32 cannot hold

@@ -46,15 +46,19 @@ std::vector<Split> splits(const std::string& name) {
     std::size_t begin = end;
     while (begin > 0 && is_digit(name[begin - 1])) --begin;
     if (end - begin <= kMostDigits) {
-      Split split{name.substr(0, begin), name.substr(end), 0, end - begin, name[begin] == '0' && end - begin > 1,
+      Split split{name.substr(0, begin),
+                  name.substr(end),
+                  0,
+                  end - begin,
+                  name[begin] == '0' && end - begin > 1,
                   rank};
       std::from_chars(name.data() + begin, name.data() + end, split.number);
       result.push_back(split);
       if (begin > 0 && name[begin - 1] == '-') {
         split.prefix.pop_back();
         split.number = -split.number;
-        const bool separated =
-            split.prefix.empty() || std::string_view("_. -/").find(split.prefix.back()) != std::string_view::npos;
+        const bool separated = split.prefix.empty() ||
+                               std::string_view("_. -/").find(split.prefix.back()) != std::string_view::npos;
         split.rank += separated ? 1 : -1;
         result.push_back(std::move(split));
       }

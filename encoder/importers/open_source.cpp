@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKnownFormats =
-    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16 or .mdd, sequences are folders or patterns such as "
+    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16 or .mdd, sequences are folders or patterns "
+    "such as "
     "walk_%04d.obj";
 
 bool is_cache(const std::string& path) {
@@ -42,10 +43,10 @@ void check_known(const std::string& path) {
     throw ImportError(ErrorCode::kInvalidInput,
                       fmt::format("{} is a TVG stream already; `tvg decode` turns it into meshes", path));
   }
-  if (path.find('*') != path.npos && !fs::exists(path, ignored)) {
+  if (path.find_first_of("*?[") != path.npos && !fs::exists(path, ignored) && !parse_input_pattern(path)) {
     const std::string around = sequence_around(path);
     throw ImportError(ErrorCode::kIo,
-                      fmt::format("there is no file {}, and * is no pattern here: {}", path,
+                      fmt::format("there is no file {}, and *, ? and [] are no patterns here: {}", path,
                                   around.empty() ? "write %d in the place of the number, as in walk_%04d.obj"
                                                  : "there is " + around));
   }
@@ -93,7 +94,8 @@ std::unique_ptr<FrameSource> turned(std::unique_ptr<FrameSource> source, const S
                                     const std::string& cache, const std::string& mesh_path,
                                     const std::vector<float>& positions, std::vector<std::string>& notes) {
   if (!spec.cache_up.empty())
-    return std::make_unique<TurnedSource>(std::move(source), spec.cache_up == "z" ? Turn::kZUpToYUp : Turn::kYUpToZUp);
+    return std::make_unique<TurnedSource>(std::move(source),
+                                          spec.cache_up == "z" ? Turn::kZUpToYUp : Turn::kYUpToZUp);
   if (cache == "-") return source;
   std::vector<float> first(positions.size());
   const Result<bool> read = source->read_frame(first);
@@ -101,9 +103,10 @@ std::unique_ptr<FrameSource> turned(std::unique_ptr<FrameSource> source, const S
   if (!source->rewind()) throw ImportError(ErrorCode::kIo, "cannot read " + cache + " twice");
   if (turn) {
     const bool z_up = *turn == Turn::kZUpToYUp;
-    notes.push_back(fmt::format("{} is turned by a quarter against {}: it has {} up where the mesh has {}. "
-                                "`--cache-up {}` turns it to the mesh",
-                                cache, mesh_path, z_up ? "z" : "y", z_up ? "y" : "z", z_up ? "z" : "y"));
+    notes.push_back(
+        fmt::format("{} is turned by a quarter against {}: it has {} up where the mesh has {}. "
+                    "`--cache-up {}` turns it to the mesh",
+                    cache, mesh_path, z_up ? "z" : "y", z_up ? "y" : "z", z_up ? "z" : "y"));
   }
   return source;
 }
@@ -141,8 +144,8 @@ SequenceFiles find_files(const std::vector<std::string>& inputs, Gaps gaps) {
   SequenceFiles one{inputs, {}};
   const std::string around = sequence_around(inputs[0]);
   if (!around.empty()) {
-    one.notes.push_back(
-        fmt::format("{} looks like one file of the sequence {}: it is taken as one frame", inputs[0], around));
+    one.notes.push_back(fmt::format("{} looks like one file of the sequence {}: it is taken as one frame",
+                                    inputs[0], around));
   }
   return one;
 }
@@ -188,7 +191,8 @@ std::optional<OpenedSource> open_with_cache_beside(const std::string& mesh, cons
   const std::vector<std::string> caches = caches_beside(mesh);
   if (caches.empty()) return std::nullopt;
   if (caches.size() > 1) {
-    fail_usage(fmt::format("{} lie beside {}: name the one that goes with it", fmt::join(caches, " and "), mesh));
+    fail_usage(
+        fmt::format("{} lie beside {}: name the one that goes with it", fmt::join(caches, " and "), mesh));
   }
   OpenedSource opened = open_mesh_and_cache(mesh, caches[0], spec);
   opened.notes.insert(opened.notes.begin(),

@@ -79,7 +79,8 @@ class HeaderReader {
   std::string_view next_line() {
     if (header_.lines == 0) {
       const std::size_t first = bytes_.find_first_of("\r\n");
-      if (first != bytes_.npos && bytes_[first] == '\r' && bytes_.substr(first + 1, 1) != "\n") line_end_ = '\r';
+      if (first != bytes_.npos && bytes_[first] == '\r' && bytes_.substr(first + 1, 1) != "\n")
+        line_end_ = '\r';
     }
     const std::size_t end = bytes_.find(line_end_, header_.size);
     if (end == bytes_.npos) {

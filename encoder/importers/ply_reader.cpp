@@ -154,8 +154,7 @@ class BodyReader {
     }
     builder_.finish(file);
     if (const std::uint64_t trailing = values_.finish(); trailing > 0) {
-      mesh_.notes.push_back(
-          fmt::format("{} bytes behind what its header promises left out", trailing));
+      mesh_.notes.push_back(fmt::format("{} bytes behind what its header promises left out", trailing));
     }
   }
 

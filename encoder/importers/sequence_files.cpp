@@ -54,8 +54,7 @@ std::string some_of(const std::vector<std::string>& names) {
   constexpr std::size_t kShown = 4;
   const std::vector<std::string> shown(
       names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, names.size())));
-  const std::string more =
-      names.size() > kShown ? fmt::format(" and {} more", names.size() - kShown) : "";
+  const std::string more = names.size() > kShown ? fmt::format(" and {} more", names.size() - kShown) : "";
   return fmt::format("{}{}", fmt::join(shown, ", "), more);
 }
 
@@ -68,7 +67,8 @@ void take_numbered(const FramePattern& pattern, const std::vector<NumberedFile>&
   for (std::size_t i = 1; i < files.size(); ++i) {
     const std::int64_t distance = files[i].number - files[i - 1].number;
     if (distance == 0) {
-      fail(fmt::format("{} and {} have the same number {}", files[i - 1].path, files[i].path, files[i].number));
+      fail(fmt::format("{} and {} have the same number {}", files[i - 1].path, files[i].path,
+                       files[i].number));
     }
     if (distance != step) step = 1;
     if (distance > 1 && missing == 0) first_gap = i;
@@ -76,9 +76,10 @@ void take_numbered(const FramePattern& pattern, const std::vector<NumberedFile>&
   }
   if (missing > 0 && step == 1 && gaps == Gaps::kRefuse) {
     const std::int64_t before = files[first_gap - 1].number;
-    fail(fmt::format("{} is missing: the sequence has the numbers {} and {}, but none between them. `--gaps "
-                     "hold` shows the frame before a gap until it ends, `--gaps skip` goes on with the next",
-                     pattern.signed_path(before + 1), before, files[first_gap].number));
+    fail(
+        fmt::format("{} is missing: the sequence has the numbers {} and {}, but none between them. `--gaps "
+                    "hold` shows the frame before a gap until it ends, `--gaps skip` goes on with the next",
+                    pattern.signed_path(before + 1), before, files[first_gap].number));
   }
   if (gaps == Gaps::kHold && missing > kMostHeld) {
     fail(fmt::format("{}: {} numbers are missing between {} and {}: too many to hold a frame over",
@@ -93,15 +94,17 @@ void take_numbered(const FramePattern& pattern, const std::vector<NumberedFile>&
   }
   if (missing == 0) return;
   if (gaps == Gaps::kHold) {
-    result.notes.push_back(fmt::format("{}: {} numbers between {} and {} are missing: the frame before them is held",
-                                       pattern.text(), missing, files.front().number, files.back().number));
+    result.notes.push_back(
+        fmt::format("{}: {} numbers between {} and {} are missing: the frame before them is held",
+                    pattern.text(), missing, files.front().number, files.back().number));
   } else if (step > 1) {
-    result.notes.push_back(fmt::format("{}: every {}th number from {} to {} is there: they are taken as {} frames "
-                                       "in a row (`--gaps hold` holds each until the next)",
-                                       pattern.text(), step, files.front().number, files.back().number, files.size()));
+    result.notes.push_back(
+        fmt::format("{}: every {}th number from {} to {} is there: they are taken as {} frames "
+                    "in a row (`--gaps hold` holds each until the next)",
+                    pattern.text(), step, files.front().number, files.back().number, files.size()));
   } else {
-    result.notes.push_back(fmt::format("{}: {} numbers between {} and {} are missing and left out", pattern.text(),
-                                       missing, files.front().number, files.back().number));
+    result.notes.push_back(fmt::format("{}: {} numbers between {} and {} are missing and left out",
+                                       pattern.text(), missing, files.front().number, files.back().number));
   }
 }
 
@@ -115,16 +118,16 @@ NamePattern one_pattern(const std::string& where, const std::vector<std::string>
   const auto other_format = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
     return mesh_format(name) != mesh_format(names[0]);
   });
-  const std::string example =
-      pattern.files.size() > 1 ? pattern.pattern.text() : folder + "frame_%04d.obj";
+  const std::string example = pattern.files.size() > 1 ? pattern.pattern.text() : folder + "frame_%04d.obj";
   if (pattern.files.size() < 2 && other_format != names.end()) {
-    fail(fmt::format("{} mixes formats ({} and {}): give a pattern such as {}", where, names[0], *other_format,
-                     example));
+    fail(fmt::format("{} mixes formats ({} and {}): give a pattern such as {}", where, names[0],
+                     *other_format, example));
   }
   if (pattern.files.size() < 2) {
-    fail(fmt::format("{} has files that are not named as one sequence ({}): give a pattern such as {}, or list "
-                     "the files themselves",
-                     where, some_of(names), example));
+    fail(fmt::format(
+        "{} has files that are not named as one sequence ({}): give a pattern such as {}, or list "
+        "the files themselves",
+        where, some_of(names), example));
   }
   NamePattern second = common_pattern(others);
   second.pattern.folder = folder;
@@ -206,16 +209,15 @@ SequenceFiles find_folder_files(const std::string& folder, Gaps gaps) {
   const std::string prefix = folder.ends_with('/') ? folder : folder + "/";
   for (const std::string& name : entry_names(folder, false)) {
     if (is_cache_file(name)) {
-      fail(fmt::format("folder {} holds a cache, {}: name the mesh and the cache instead of the folder", folder,
-                       name));
+      fail(fmt::format("folder {} holds a cache, {}: name the mesh and the cache instead of the folder",
+                       folder, name));
     }
   }
   const std::vector<std::string> names = mesh_names(folder);
   if (names.empty()) {
     const std::vector<std::string> folders = entry_names(folder, true);
-    const bool any = std::any_of(folders.begin(), folders.end(), [&](const std::string& name) {
-      return !mesh_names(prefix + name).empty();
-    });
+    const bool any = std::any_of(folders.begin(), folders.end(),
+                                 [&](const std::string& name) { return !mesh_names(prefix + name).empty(); });
     if (any) return find_frame_folders(folder, prefix, folders, gaps);
     fail(fmt::format("folder {} holds no .obj, .ply, .off or .stl files", folder));
   }
@@ -230,7 +232,8 @@ SequenceFiles find_folder_files(const std::string& folder, Gaps gaps) {
 SequenceFiles order_listed_files(std::vector<std::string> files, Gaps gaps) {
   std::sort(files.begin(), files.end(), natural_less);
   if (const auto twice = std::adjacent_find(files.begin(), files.end()); twice != files.end())
-    fail(fmt::format("{} is named twice among the files of a sequence", *twice));
+    throw ToolError(ExitStatus::kUsage,
+                    fmt::format("{} is named twice among the files of a sequence", *twice));
   require_one_format(files);
   const NamePattern pattern = common_pattern(files);
   const std::vector<std::string> others = names_without(files, pattern);
@@ -240,10 +243,11 @@ SequenceFiles order_listed_files(std::vector<std::string> files, Gaps gaps) {
     return result;
   }
   if (pattern.files.size() > 1 && others.size() < pattern.files.size()) {
-    fail(fmt::format("{} {} not named as the other files are ({}): give the pattern instead of the list, or "
-                     "a list without {}",
-                     some_of(others), others.size() == 1 ? "is" : "are", pattern.pattern.text(),
-                     others.size() == 1 ? "it" : "them"));
+    fail(
+        fmt::format("{} {} not named as the other files are ({}): give the pattern instead of the list, or "
+                    "a list without {}",
+                    some_of(others), others.size() == 1 ? "is" : "are", pattern.pattern.text(),
+                    others.size() == 1 ? "it" : "them"));
   }
   result.notes.push_back(fmt::format("the files are taken in the order {}", some_of(files)));
   result.files = std::move(files);

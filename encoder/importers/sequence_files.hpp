@@ -14,8 +14,8 @@ struct SequenceFiles {
 };
 
 /// Finds the files of a numbered sequence ("walk_%04d.obj", "%04d/mesh.obj"), sorted by number. Throws
-/// ImportError where there is none, or a number is missing and `gaps` says so. Returns nothing where `path` is
-/// no such pattern, or is the name of a file that exists.
+/// ImportError where there is none, or a number is missing and `gaps` says so. Returns nothing where `path`
+/// is no such pattern, or is the name of a file that exists.
 std::optional<SequenceFiles> find_pattern_files(const std::string& path, Gaps gaps);
 
 /// The mesh files of a folder that are one sequence, by their number; or, where the folder has folders by

@@ -142,8 +142,8 @@ std::uint64_t count_triangles(const std::string& file, std::string_view bytes, M
   std::uint64_t triangles = promised_triangles(bytes);
   const std::uint64_t held = (bytes.size() - kHeaderSize) / kTriangleSize;
   if (held > 0 && (triangles == 0 || triangles == 0xffffffffU)) {
-    mesh.notes.push_back(fmt::format("its header says {} triangles, which was never put right: {} follow",
-                                     triangles, held));
+    mesh.notes.push_back(
+        fmt::format("its header says {} triangles, which was never put right: {} follow", triangles, held));
     triangles = held;
   }
   const std::uint64_t promised = kHeaderSize + kTriangleSize * triangles;
@@ -154,8 +154,8 @@ std::uint64_t count_triangles(const std::string& file, std::string_view bytes, M
                     file, bytes.size(), held, triangles, promised));
   }
   if (bytes.size() > promised && triangles > 0) {
-    mesh.notes.push_back(fmt::format("{} bytes behind its {} triangles left out", bytes.size() - promised,
-                                     triangles));
+    mesh.notes.push_back(
+        fmt::format("{} bytes behind its {} triangles left out", bytes.size() - promised, triangles));
   }
   if (triangles > kMaximumTriangles) {
     throw ImportError(
@@ -190,8 +190,8 @@ void parse_stl(const std::string& file, std::string_view bytes, MeshFile& mesh) 
   mesh.clear();
   const bool sized_right =
       bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + kTriangleSize * promised_triangles(bytes);
-  const bool marked = bytes.starts_with("\xef\xbb\xbf") || bytes.starts_with("\xff\xfe") ||
-                      bytes.starts_with("\xfe\xff");
+  const bool marked =
+      bytes.starts_with("\xef\xbb\xbf") || bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
   if (marked && !sized_right) bytes = without_byte_order_mark(file, bytes);
   if (is_ascii(bytes)) {
     AsciiStlReader(file, bytes, mesh).read();

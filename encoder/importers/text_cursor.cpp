@@ -72,14 +72,14 @@ Real TextCursor::real_slowly(const char* begin) {
   const std::size_t odd = text.find(".#");
   if (odd != text.npos && odd > 0 && text[odd - 1] == '1') return std::numeric_limits<Real>::quiet_NaN();
   char* after = nullptr;
-  const Real value =
-      std::is_same_v<Real, float> ? std::strtof(text.c_str(), &after)
-                                  : static_cast<Real>(std::strtod(text.c_str(), &after));
+  const Real value = std::is_same_v<Real, float> ? std::strtof(text.c_str(), &after)
+                                                 : static_cast<Real>(std::strtod(text.c_str(), &after));
   const bool starts_as_number = !text.empty() && text.find_first_of("xX") == text.npos;
   if (!starts_as_number || *after != '\0') fail_number("a number", begin);
   if (!std::isfinite(value)) {
-    fail_number(std::is_same_v<Real, float> ? "a number that float32 can hold" : "a number that double can hold",
-                begin);
+    fail_number(
+        std::is_same_v<Real, float> ? "a number that float32 can hold" : "a number that double can hold",
+        begin);
   }
   return value;
 }
@@ -112,7 +112,9 @@ void TextCursor::fail_number(const char* expected, const char* begin) const {
   const std::string found(begin, std::find_if(begin, limit, is_delimiter));
   if (found.empty()) fail(fmt::format("{} is missing", expected));
   const std::size_t comma = found.find(',');
-  const auto digit_at = [&](std::size_t at) { return at < found.size() && found[at] >= '0' && found[at] <= '9'; };
+  const auto digit_at = [&](std::size_t at) {
+    return at < found.size() && found[at] >= '0' && found[at] <= '9';
+  };
   const bool decimal_comma = comma != found.npos && (digit_at(comma + 1) || digit_at(comma - 1));
   fail(fmt::format("'{}' stands where {} should be{}", is_plain_text(found) ? found : "(binary)", expected,
                    decimal_comma ? ": numbers have a decimal point, this file has commas" : ""));
@@ -125,8 +127,8 @@ bool TextCursor::in_cut_line() const {
 void TextCursor::fail(const std::string& what, ErrorCode code) const {
   if (in_cut_line()) {
     throw ImportError(ErrorCode::kTruncated,
-                      fmt::format("{} ends inside line {}, which has no line end: the file is cut ({})", file_,
-                                  line_, what));
+                      fmt::format("{} ends inside line {}, which has no line end: the file is cut ({})",
+                                  file_, line_, what));
   }
   throw ImportError(code, fmt::format("{}, line {}: {}", file_, line_, what));
 }
