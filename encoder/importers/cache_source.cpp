@@ -4,6 +4,7 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/npy_source.hpp"
 
 #include <algorithm>
 #include <array>
@@ -80,19 +81,6 @@ class FrameRate {
   bool even_ = true;
   std::uint64_t first_uneven_ = 0;
 };
-
-/// float16 as float32.
-float from_half(std::uint16_t half) {
-  const std::uint32_t sign = static_cast<std::uint32_t>(half & 0x8000U) << 16;
-  const int exponent = (half >> 10) & 31;
-  const std::uint32_t fraction = half & 0x3ffU;
-  if (exponent == 0) {
-    const float value = std::ldexp(static_cast<float>(fraction), -24);
-    return sign != 0 ? -value : value;
-  }
-  const std::uint32_t wide = exponent == 31 ? 0xffU : static_cast<std::uint32_t>(exponent - 15 + 127);
-  return std::bit_cast<float>(sign | wide << 23 | fraction << 13);
-}
 
 class CacheSource final : public FrameSource {
  public:
@@ -279,7 +267,7 @@ bool CacheSource::read_positions(std::span<float> positions) {
   const bool big_endian = !layout_.is_pc2;
   if (layout_.half) {
     for (std::size_t i = 0; i < positions.size(); ++i)
-      positions[i] = from_half(load<std::uint16_t>(raw + 2 * i, false));
+      positions[i] = widened(load<std::uint16_t>(raw + 2 * i, false));
   } else if (big_endian != (std::endian::native == std::endian::big)) {
     for (float& value : positions) value = byte_swapped(value);
   }
@@ -330,6 +318,7 @@ bool CacheSource::rewind() {
 std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
                                         const std::string& mesh_file, std::vector<std::string>& notes,
                                         bool open_ended) {
+  if (has_suffix(path, ".npy")) return open_npy(path, std::move(mesh), std::move(metadata), mesh_file);
   return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, notes,
                                        open_ended);
 }

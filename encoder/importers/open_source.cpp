@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKnownFormats =
-    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16 or .mdd, sequences are folders or patterns "
+    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16, .mdd or .npy, sequences are folders or "
+    "patterns "
     "such as "
     "walk_%04d.obj";
 

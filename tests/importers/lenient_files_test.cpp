@@ -234,6 +234,38 @@ TEST_F(LenientSequence, ACacheBesideItsMeshIsTaken) {
   EXPECT_THAT(opened.notes, Contains(HasSubstr("says 0 frames, which was never put right: 3 follow")));
 }
 
+TEST_F(LenientSequence, ArraysOfNumpyAreCachesOfEachPrecision) {
+  folder_.write("a.obj", sample_obj());
+  const auto array = [](const std::string& type, const std::string& order, const std::string& shape,
+                        const std::string& data) {
+    std::string header =
+        "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
+    header.resize(117, ' ');
+    return std::string("\x93NUMPY\1\0v\0", 10) + header + "\n" + data;
+  };
+  ByteString single(false), twice(true);
+  for (const std::size_t frame : {0, 1}) {
+    for (const float value : tetrahedron_positions(frame)) {
+      single.add(value);
+      twice.add(double{value});
+    }
+  }
+  for (const std::string& bytes :
+       {array("<f4", "False", "2, 4, 3", single.bytes()), array(">f8", "False", "2, 4, 3", twice.bytes())}) {
+    folder_.write("a.npy", bytes);
+    EXPECT_EQ(read_all(*open({"a.obj"}).source).frames,
+              (std::vector<FramePositions>{tetrahedron_positions(0), tetrahedron_positions(1)}));
+  }
+  const auto message = [&](const std::string& bytes) {
+    folder_.write("a.npy", bytes);
+    return std::string(thrown_by([&] { open({"a.obj", "a.npy"}); }).what());
+  };
+  EXPECT_THAT(message(array("<f4", "True", "2, 4, 3", single.bytes())), HasSubstr("Fortran's order"));
+  EXPECT_THAT(message(array("<i4", "False", "2, 4, 3", single.bytes())), HasSubstr("numbers of type '<i4'"));
+  EXPECT_THAT(message(array("<f4", "False", "2, 12", single.bytes())), HasSubstr("not [frame][vertex][xyz]"));
+  EXPECT_THAT(message(array("<f4", "False", "3, 4, 3", single.bytes())), HasSubstr("inside frame 2"));
+}
+
 TEST_F(LenientSequence, UnevenTimesAreTold) {
   folder_.write("a.obj", sample_obj());
   std::string uneven = mdd_bytes(4, 4, 4, 0.04);
