@@ -1,15 +1,17 @@
 #include "cli/commands.hpp"
+#include "cli/compared_sides.hpp"
 #include "cli/surface_report.hpp"
 #include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
-#include "tool/progress.hpp"
+#include "tool/origin.hpp"
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -41,11 +43,13 @@ std::string rate_of(const FrameSource& other) {
 }
 
 /// A stream, a cache with the mesh file named by --mesh, a sequence of mesh files, or a scene.
+/// `origin`: what coordinates of mesh files are relative to, where the other side says it.
 std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArguments& arguments,
-                                       const std::string& fps) {
+                                       const std::string& fps, const std::optional<Origin>& origin = {}) {
   if (is_stream_file(path)) return std::make_unique<StreamSource>(path);
   std::string mesh;
   SourceSpec spec{{path}};
+  spec.sequence.origin = origin;
   for (const std::string& name : arguments.meshes) {
     if (mesh_format(name)) {
       mesh = name;
@@ -67,10 +71,13 @@ std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArg
   return open_source(spec).source;
 }
 
-Result<bool> read(FrameSource& source, FramePositions& frame) {
-  Result<bool> read = source.read_frame(frame);
-  if (!read) throw tool_error(read.error());
-  return read;
+/// The origin that what is compared with has: mesh files are read relative to the same. A cache does not say.
+std::optional<Origin> shared_origin(const std::string& path, const FrameSource& decoded) {
+  if (is_cache_file(path)) return std::nullopt;
+  const std::optional<Origin> origin = origin_of(decoded.metadata());
+  if (!origin)
+    throw ToolError(ExitStatus::kInvalidInput, path + ": its metadata `origin` are not three numbers");
+  return origin;
 }
 
 /// The faces, whatever their order and whichever corner comes first: a stream does not keep either.
@@ -85,43 +92,17 @@ bool same_connectivity(const Mesh& a, const Mesh& b) {
   return a.vertex_count == b.vertex_count && faces_of(a) == faces_of(b);
 }
 
-/// The two sides of a comparison.
-struct Sides {
-  std::unique_ptr<FrameSource> original, decoded;
-};
-
-Sides open_sides(const CompareArguments& arguments) {
+ComparedSides open_sides(const CompareArguments& arguments) {
   if (!arguments.fps.empty()) static_cast<void>(parse_rate(arguments.fps));
-  Sides sides;
+  ComparedSides sides{{}, {}, arguments.original, arguments.decoded, arguments.quiet};
   sides.decoded = open_side(arguments.decoded, arguments, arguments.fps);
   sides.original = open_side(arguments.original, arguments,
-                             arguments.fps.empty() ? rate_of(*sides.decoded) : arguments.fps);
+                             arguments.fps.empty() ? rate_of(*sides.decoded) : arguments.fps,
+                             shared_origin(arguments.decoded, *sides.decoded));
   return sides;
 }
 
-/// Frame after frame of both sides into a comparison of either kind.
-template <class Comparison>
-void compare(const Sides& sides, const CompareArguments& arguments, Comparison& comparison) {
-  FramePositions a(3 * std::size_t{sides.original->mesh().vertex_count});
-  FramePositions b(3 * std::size_t{sides.decoded->mesh().vertex_count});
-  ProgressBar bar("comparing", arguments.quiet);
-  for (std::uint64_t frame = 0;; ++frame) {
-    const bool more_a = *read(*sides.original, a);
-    const bool more_b = *read(*sides.decoded, b);
-    if (more_a != more_b) {
-      throw ToolError(
-          ExitStatus::kInvalidInput,
-          fmt::format("{} ends after {} frames, {} goes on", more_a ? arguments.decoded : arguments.original,
-                      frame, more_a ? arguments.original : arguments.decoded));
-    }
-    if (!more_a) break;
-    if (Status status = comparison.add_frame(a, b); !status.ok())
-      throw tool_error(arguments.decoded, status.error());
-    bar.update(frame + 1, sides.original->frame_count());
-  }
-}
-
-void print_json(const ComparisonReport& report) {
+nlohmann::json json_of(const ComparisonReport& report) {
   nlohmann::json json = {
       {"frames", report.frames},
       {"vertices", report.vertices},
@@ -150,6 +131,18 @@ void print_json(const ComparisonReport& report) {
       {"hausdorff_frames", report.hausdorff_frames}};
   if (report.hausdorff) json["hausdorff"] = *report.hausdorff;
   if (report.relative_hausdorff) json["relative_hausdorff"] = *report.relative_hausdorff;
+  return json;
+}
+
+void print_json(const std::vector<Stretch>& stretches) {
+  nlohmann::json json = json_of(together(stretches));
+  if (stretches.size() > 1) {
+    for (const Stretch& stretch : stretches) {
+      nlohmann::json one = json_of(stretch.report);
+      one["first_frame"] = stretch.first_frame;
+      json["stretches"].push_back(std::move(one));
+    }
+  }
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -174,18 +167,27 @@ void print_text(const ComparisonReport& report) {
   }
 }
 
+/// Each stretch by itself, and what holds for all.
+void print_text(const std::vector<Stretch>& stretches) {
+  if (stretches.size() == 1) return print_text(stretches[0].report);
+  for (const Stretch& stretch : stretches) {
+    fmt::print("frames {}-{}: ", stretch.first_frame, stretch.first_frame + stretch.report.frames - 1);
+    print_text(stretch.report);
+  }
+  const ComparisonReport all = together(stretches);
+  fmt::print("all {} frames of {} meshes: maximum, coordinate {:.6g}; RMS, coordinate {:.6g}\n", all.frames,
+             stretches.size(), all.max_coordinate_error, all.rms_coordinate_error);
+}
+
 void run_compare(const CompareArguments& arguments) {
-  const Sides sides = open_sides(arguments);
+  const ComparedSides sides = open_sides(arguments);
   const std::uint32_t stride = std::max(1u, arguments.hausdorff_stride);
   if (arguments.surfaces || !same_connectivity(sides.original->mesh(), sides.decoded->mesh())) {
-    SurfaceComparison comparison(sides.original->mesh(), sides.decoded->mesh(), {arguments.samples, stride});
-    compare(sides, arguments, comparison);
-    arguments.json ? print_surface_json(comparison.report()) : print_surface_report(comparison.report());
-    return;
+    const SurfaceReport report = compare_surfaces(sides, {arguments.samples, stride});
+    return arguments.json ? print_surface_json(report) : print_surface_report(report);
   }
-  SequenceComparison comparison(sides.original->mesh(), {arguments.hausdorff_stride > 0, stride});
-  compare(sides, arguments, comparison);
-  arguments.json ? print_json(comparison.report()) : print_text(comparison.report());
+  const std::vector<Stretch> stretches = compare_vertices(sides, {arguments.hausdorff_stride > 0, stride});
+  arguments.json ? print_json(stretches) : print_text(stretches);
 }
 
 }  // namespace

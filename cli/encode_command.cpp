@@ -50,6 +50,7 @@ struct EncodeArguments : InputArguments {
   bool quiet = false;
   std::string name;
   std::string units;
+  std::string up;
   std::vector<std::string> metadata;
 };
 
@@ -66,7 +67,7 @@ Metadata metadata_of(const EncodeArguments& arguments) {
     fail_option("--meta", "fps=" + fps->second, kFrameRateHelp);
   }
   for (const auto& [key, value] : {std::pair("fps", &arguments.fps), std::pair("name", &arguments.name),
-                                   std::pair("units", &arguments.units)}) {
+                                   std::pair("units", &arguments.units), std::pair("up", &arguments.up)}) {
     if (!value->empty()) metadata[key] = *value;
   }
   return metadata;
@@ -223,6 +224,7 @@ void run_encode(const EncodeArguments& arguments) {
 
   if (arguments.quiet) return;
   bar.clear();
+  print_later_notes(opened);
   if (report->cut_short) fmt::print(stderr, "note: {}: that frame is left out\n", *report->cut_short);
   print_report(arguments, *report);
 }
@@ -300,6 +302,8 @@ void add_encode_command(CLI::App& tool) {
                      "(default 30)");
   command.add_option("--name", arguments->name, "a name, kept with the stream");
   command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
+  command.add_option("--up", arguments->up, "the axis that is up, kept with the stream")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");
   auto* threads =
       command

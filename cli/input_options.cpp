@@ -14,14 +14,30 @@ namespace tvg::cli {
 
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others) {
   command
-      .add_option(
-          "input", arguments.inputs,
-          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, MDD; - for standard input), or a sequence of mesh "
-          "files: a folder or a pattern (walk_%04d.obj, walk_####.obj), or a scene (glTF 2, FBX, COLLADA, X, "
-          "MD5, MD2, ...)" +
-              others)
+      .add_option("input", arguments.inputs,
+                  "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY; - for standard input), or a "
+                  "sequence of "
+                  "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the "
+                  "files, or a scene (glTF 2, FBX, COLLADA, X, "
+                  "MD5, MD2, ...)" +
+                      others)
       ->required();
   command.add_option("--frames", arguments.frames, "frames A-B only, counted from 0");
+  command
+      .add_option("--gaps", arguments.gaps,
+                  "numbers that a sequence leaves out, and files without faces: hold the frame before, skip "
+                  "them, or refuse (default; a number every N is no gap)")
+      ->check(CLI::IsMember({"hold", "skip", "refuse"}));
+  command.add_option(
+      "--weld", arguments.weld,
+      "corners of STL are one vertex where they lie no further apart than this, in the mesh's "
+      "units (0.001) or as a share of the diagonal of the first frame's box (default 0.0001%)");
+  command
+      .add_option(
+          "--cache-up", arguments.cache_up,
+          "the axis that is up in the cache, where its mesh has the other (Blender: OBJ y, MDD z): the "
+          "cache is turned to the mesh")
+      ->check(CLI::IsMember({"y", "z"}));
   command.add_option("--clip", arguments.clip,
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
   command.add_option(
@@ -29,6 +45,23 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
       "a mesh of a scene, by its name or its node's, or by number; may be repeated (default: all)");
   add_skeleton_option(command, arguments.skeleton);
 }
+
+namespace {
+
+SequenceOptions sequence_options(const InputArguments& arguments) {
+  SequenceOptions options;
+  if (arguments.gaps == "hold") options.gaps = Gaps::kHold;
+  if (arguments.gaps == "skip") options.gaps = Gaps::kSkip;
+  if (arguments.weld.empty()) return options;
+  std::string number = arguments.weld;
+  options.weld.of_diagonal = number.ends_with('%');
+  if (options.weld.of_diagonal) number.pop_back();
+  const NumberRange from_zero{.least = 0};
+  options.weld.value = parse_number("--weld", number, from_zero) / (options.weld.of_diagonal ? 100 : 1);
+  return options;
+}
+
+}  // namespace
 
 void add_skeleton_option(CLI::App& command, std::string& skeleton) {
   command.add_option("--skeleton", skeleton,
@@ -65,6 +98,8 @@ OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
   spec.open_ended = open_ended;
+  spec.sequence = sequence_options(arguments);
+  spec.cache_up = arguments.cache_up;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     opened.first_frame = spec.frames->first;
@@ -97,6 +132,11 @@ std::string input_names(const InputArguments& arguments) {
 
 void print_notes(const OpenedSource& opened) {
   for (const std::string& note : opened.notes) fmt::print(stderr, "note: {}\n", note);
+}
+
+void print_later_notes(const OpenedSource& opened) {
+  if (!opened.later) return;
+  for (const std::string& note : opened.later->texts()) fmt::print(stderr, "note: {}\n", note);
 }
 
 }  // namespace tvg::cli

@@ -21,10 +21,14 @@ struct InputArguments {
   std::string clip;
   std::vector<std::string> meshes;
   std::string skeleton;
+  std::string gaps;
+  std::string weld;
+  std::string cache_up;
 };
 
-/// Declares the inputs, --frames, --clip, --mesh and --skeleton; `arguments` must outlive the parsing. --fps
-/// is left to the command: what it means differs. `others`: what the command takes beside these inputs.
+/// Declares the inputs, --frames, --gaps, --weld, --cache-up, --clip, --mesh and --skeleton; `arguments` must
+/// outlive the parsing. --fps is left to the command: what it means differs. `others`: what the command takes
+/// beside these inputs.
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others = "");
 
 /// Declares --skeleton alone.
@@ -59,5 +63,8 @@ std::string input_names(const InputArguments& arguments);
 
 /// Prints what importing brought to light to standard error.
 void print_notes(const OpenedSource& opened);
+
+/// Prints what reading the frames brought to light since.
+void print_later_notes(const OpenedSource& opened);
 
 }  // namespace tvg::cli

@@ -24,28 +24,31 @@ std::optional<struct stat> regular_file(const std::string& path, int standard) {
   return status;
 }
 
-/// Calls `use(path)` for each entry of a folder that `wanted(name)` picks.
-template <class Wanted, class Use>
-void for_each_file(const std::string& folder, Wanted wanted, Use use) {
-  const std::string prefix = folder.empty() || folder.ends_with('/') ? folder : folder + '/';
-  std::error_code error;
-  fs::directory_iterator entry(folder.empty() ? "." : folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (wanted(name)) use(std::string(prefix).append(name));
-  }
-}
-
 /// Calls `use(path)` for what `path` stands for: the files of a pattern, or itself.
 template <class Use>
-void for_each_named(const std::string& path, Use use) {
+void for_each_named(const std::string& path, const std::optional<FramePattern>& pattern, Use use) {
   use(path);
   std::error_code ignored;
-  const std::optional<FramePattern> pattern = parse_frame_pattern(path);
   if (!pattern || fs::exists(path, ignored)) return;
-  for_each_file(
-      pattern->folder, [&pattern](const std::string& name) { return pattern->number_of(name).has_value(); },
-      use);
+  for (const NumberedFile& file : numbered_files(*pattern).value_or(std::vector<NumberedFile>{}))
+    use(file.path);
+}
+
+/// Calls `use(path)` for the mesh files of a folder and, where it has any, of the folders in it.
+template <class Use>
+void for_each_mesh(const std::string& folder, int depth, Use use) {
+  const std::string prefix = folder.ends_with('/') ? folder : folder + '/';
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string path = prefix + entry->path().filename().string();
+    std::error_code ignored;
+    if (mesh_format(path)) {
+      use(path);
+    } else if (depth > 0 && entry->is_directory(ignored)) {
+      for_each_mesh(path, depth - 1, use);
+    }
+  }
 }
 
 }  // namespace
@@ -57,19 +60,20 @@ void InputFiles::add(const std::string& path) {
   };
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
-    for_each_file(
-        path, [](const std::string& name) { return mesh_format(name).has_value(); }, add_file);
+    for_each_mesh(path, 1, add_file);
   } else {
-    for_each_named(path, add_file);
+    for_each_named(path, parse_input_pattern(path), add_file);
   }
 }
 
 void InputFiles::add(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) add(path);
+  if (paths.size() != 1 || !mesh_format(paths[0])) return;
+  for (const std::string& cache : caches_beside(paths[0])) add(cache);
 }
 
 void InputFiles::check_output(const std::string& path) const {
-  for_each_named(path, [&](const std::string& file) { check_file(file, path); });
+  for_each_named(path, parse_frame_pattern(path), [&](const std::string& file) { check_file(file, path); });
 }
 
 void InputFiles::check_file(const std::string& file, const std::string& asked) const {

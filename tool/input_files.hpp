@@ -12,6 +12,7 @@ class InputFiles {
   /// Adds what a user names: a file, "-" (standard input), a folder (the mesh files in it), a pattern such as
   /// walk_%04d.obj (the files it stands for). What does not exist adds nothing: opening it will tell.
   void add(const std::string& path);
+  /// The same of several; a mesh that is the only one brings the cache beside it.
   void add(const std::vector<std::string>& paths);
 
   /// Throws ToolError (kUsage) where writing `path` would overwrite one of the inputs. `path`: a file, "-"

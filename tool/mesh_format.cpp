@@ -1,9 +1,18 @@
 #include "tool/mesh_format.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <filesystem>
+#include <system_error>
 
 namespace tvg::cli {
+
+namespace {
+
+constexpr std::array<const char*, 4> kCacheSuffixes = {".pc2", ".pc16", ".mdd", ".npy"};
+
+}  // namespace
 
 bool has_suffix(const std::string& path, std::string_view suffix) {
   if (path.size() < suffix.size()) return false;
@@ -12,7 +21,18 @@ bool has_suffix(const std::string& path, std::string_view suffix) {
 }
 
 bool is_cache_file(const std::string& path) {
-  return has_suffix(path, ".pc2") || has_suffix(path, ".mdd");
+  return std::any_of(kCacheSuffixes.begin(), kCacheSuffixes.end(),
+                     [&](const char* suffix) { return has_suffix(path, suffix); });
+}
+
+std::vector<std::string> caches_beside(const std::string& mesh) {
+  std::vector<std::string> found;
+  for (const char* suffix : kCacheSuffixes) {
+    std::string candidate = std::filesystem::path(mesh).replace_extension(suffix).string();
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(candidate, ignored)) found.push_back(std::move(candidate));
+  }
+  return found;
 }
 
 std::optional<MeshFormat> mesh_format(const std::string& path) {

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tvg::cli {
 
@@ -11,8 +12,11 @@ enum class MeshFormat { kObj, kPly, kOff, kStl };
 /// Whether `path` ends with `suffix` (".obj"), in either case.
 bool has_suffix(const std::string& path, std::string_view suffix);
 
-/// Whether `path` names a vertex cache: .pc2 or .mdd, in either case.
+/// Whether `path` names a vertex cache: .pc2, .pc16, .mdd or .npy, in either case.
 bool is_cache_file(const std::string& path);
+
+/// The caches that lie beside a mesh file under its name ("hand.pc2" beside "hand.obj").
+std::vector<std::string> caches_beside(const std::string& mesh);
 
 /// The format that the suffix of `path` names.
 std::optional<MeshFormat> mesh_format(const std::string& path);

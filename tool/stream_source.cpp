@@ -56,6 +56,7 @@ Result<bool> StreamSource::read_frame(std::span<float> positions) {
       case Decoder::Event::kDamage:
         return named(decoder.damage().error);
       case Decoder::Event::kMesh:
+        changed_ = true;
         return named({ErrorCode::kInvalidInput,
                       "the stream goes on with another mesh: take its parts one by one",
                       {},
@@ -65,6 +66,13 @@ Result<bool> StreamSource::read_frame(std::span<float> positions) {
         break;
     }
   }
+}
+
+bool StreamSource::go_on_with_next_mesh() {
+  if (!changed_) return false;
+  changed_ = false;
+  mesh_ = reader_->decoder().mesh();
+  return true;
 }
 
 bool StreamSource::rewind() {

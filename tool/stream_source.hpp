@@ -1,4 +1,5 @@
 #pragma once
+#include "tool/mesh_changes.hpp"
 #include "tool/stream_reader.hpp"
 
 #include <memory>
@@ -11,9 +12,9 @@ namespace tvg::cli {
 /// Whether a path names a .tvg.
 bool is_stream_file(const std::string& path);
 
-/// The frames of a .tvg as a source. A damaged stream, or one with more than one mesh, yields an error, whose
-/// message names the file.
-class StreamSource final : public FrameSource {
+/// The frames of a .tvg as a source. A damaged stream yields an error, whose message names the file; so does
+/// another mesh, with which go_on_with_next_mesh() goes on.
+class StreamSource final : public FrameSource, public MeshChanges {
  public:
   /// Reads up to the mesh. Throws ToolError when the stream cannot be opened or has no mesh.
   explicit StreamSource(std::string path);
@@ -23,6 +24,7 @@ class StreamSource final : public FrameSource {
   std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
   Result<bool> read_frame(std::span<float> positions) override;
   bool rewind() override;
+  bool go_on_with_next_mesh() override;
 
  private:
   void open();
@@ -31,6 +33,7 @@ class StreamSource final : public FrameSource {
   std::string path_;
   std::unique_ptr<StreamReader> reader_;
   Mesh mesh_;
+  bool changed_ = false;  // the last error was another mesh
   std::optional<std::uint64_t> frame_count_;
 };
 

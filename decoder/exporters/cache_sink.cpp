@@ -78,6 +78,7 @@ void CacheSink::begin_mesh(const Mesh& mesh, const Metadata& metadata,
   if (const auto fps = metadata.find("fps"); fps != metadata.end()) {
     seconds_per_frame_ = 1 / parse_frame_rate(fps->second).value_or(1);
   }
+  origin_ = origin_of(metadata).value_or(Origin{});
   promised_ = frame_count.value_or(0);
   write_header();
 }
@@ -148,6 +149,11 @@ void CacheSink::write_frame(std::span<const float> positions) {
 void CacheSink::write_mesh_beside(std::span<const float> positions) {
   mesh_file_.emplace(mesh_path_);
   write_mesh(*mesh_file_, MeshFormat::kObj, mesh_, positions, name_);
+}
+
+std::vector<std::string> CacheSink::notes() const {
+  if (is_zero(origin_)) return {};
+  return {relative_note(origin_, format_name())};
 }
 
 void CacheSink::finish() {

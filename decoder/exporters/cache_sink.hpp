@@ -1,6 +1,7 @@
 #pragma once
 #include "decoder/exporters/frame_sink.hpp"
 #include "tool/atomic_file.hpp"
+#include "tool/origin.hpp"
 
 #include <cstdint>
 #include <optional>
@@ -25,6 +26,7 @@ class CacheSink final : public FrameSink {
   void write_frame(std::span<const float> positions) override;
   void finish() override;
   const std::vector<std::string>& files() const override { return files_; }
+  std::vector<std::string> notes() const override;
 
  private:
   std::string format_name() const { return format_ == CacheFormat::kPc2 ? "PC2" : "MDD"; }
@@ -43,6 +45,7 @@ class CacheSink final : public FrameSink {
   bool begun_ = false;
   Mesh mesh_;
   std::string name_;
+  Origin origin_{};
   double seconds_per_frame_ = 1;
   std::uint64_t promised_ = 0;  // frames in the header
   std::uint64_t frames_ = 0;    // frames written

@@ -42,6 +42,7 @@ void MeshSequenceSink::begin_mesh(const Mesh& mesh, const Metadata& metadata,
   mesh_ = mesh;
   const auto name = metadata.find("name");
   object_name_ = name == metadata.end() ? "" : name->second;
+  origin_ = origin_of(metadata).value_or(Origin{});
 }
 
 void MeshSequenceSink::write_frame(std::span<const float> positions) {
@@ -50,7 +51,7 @@ void MeshSequenceSink::write_frame(std::span<const float> positions) {
   const bool is_first = files_.empty() && !plain_name_.empty();
   last_ = std::make_unique<AtomicFile>(is_first ? plain_name_
                                                 : pattern_.path(options_.first_number + files_.size()));
-  write_mesh(*last_, format_, mesh_, positions, object_name_);
+  write_mesh(*last_, format_, mesh_, positions, object_name_, origin_);
 }
 
 void MeshSequenceSink::finish() {
@@ -71,8 +72,10 @@ void MeshSequenceSink::finish_file(const std::string& path) {
 
 std::vector<std::string> MeshSequenceSink::notes() const {
   if (format_ != MeshFormat::kStl) return {};
-  return {
+  std::vector<std::string> notes = {
       "STL holds corners of triangles only: the order of vertices, and vertices without a face, are lost"};
+  if (!is_zero(origin_)) notes.push_back(relative_note(origin_, "STL"));
+  return notes;
 }
 
 }  // namespace tvg::cli

@@ -3,6 +3,7 @@
 #include "tool/atomic_file.hpp"
 #include "tool/frame_pattern.hpp"
 #include "tool/mesh_format.hpp"
+#include "tool/origin.hpp"
 
 #include <memory>
 #include <optional>
@@ -38,6 +39,7 @@ class MeshSequenceSink final : public FrameSink {
   SinkOptions options_;
   Mesh mesh_;
   std::string object_name_;
+  Origin origin_{};
   std::unique_ptr<AtomicFile> last_;  // the frame written last, not in place yet
   std::vector<std::string> files_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -24,7 +25,7 @@ class Line {
   void add(T number) {
     if (length_ > 0) text_[length_++] = ' ';
     const auto [end, error] = std::to_chars(text_.data() + length_, text_.data() + text_.size(), number);
-    static_cast<void>(error);  // four numbers of at most 15 characters fit
+    static_cast<void>(error);  // three numbers of at most 25 characters fit
     length_ = static_cast<std::size_t>(end - text_.data());
   }
   std::string_view finish() {
@@ -37,10 +38,15 @@ class Line {
   std::size_t length_;
 };
 
-void write_text(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, bool is_obj) {
+void write_text(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, const Origin& origin,
+                bool is_obj) {
+  const bool placed = !is_zero(origin);
   for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
     Line line(is_obj ? "v" : "");
-    for (std::size_t axis = 0; axis < 3; ++axis) line.add(positions[3 * vertex + axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float coordinate = positions[3 * vertex + axis];
+      placed ? line.add(origin[axis] + double{coordinate}) : line.add(coordinate);
+    }
     file.write(line.finish());
   }
   for (const Face& face : mesh.faces) {
@@ -50,8 +56,8 @@ void write_text(AtomicFile& file, const Mesh& mesh, std::span<const float> posit
   }
 }
 
-void write_obj(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
-               const std::string& name) {
+void write_obj(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, const std::string& name,
+               const Origin& origin) {
   file.write(kObjMark);
   if (!name.empty()) {
     std::string one_line = name;
@@ -60,17 +66,25 @@ void write_obj(AtomicFile& file, const Mesh& mesh, std::span<const float> positi
         ' ');
     file.write("o " + one_line + "\n");
   }
-  write_text(file, mesh, positions, true);
+  write_text(file, mesh, positions, origin, true);
 }
 
-void write_off(AtomicFile& file, const Mesh& mesh, std::span<const float> positions) {
+void write_off(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, const Origin& origin) {
   file.write(fmt::format("OFF\n{} {} 0\n", mesh.vertex_count, mesh.faces.size()));
-  write_text(file, mesh, positions, false);
+  write_text(file, mesh, positions, origin, false);
 }
 
 void write_float(AtomicFile& file, float value) {
   std::array<char, 4> bytes;
   store32(bytes.data(), value, false);
+  file.write(bytes.data(), bytes.size());
+}
+
+void write_double(AtomicFile& file, double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  std::array<char, 8> bytes;
+  store32(bytes.data(), static_cast<std::uint32_t>(bits), false);
+  store32(bytes.data() + 4, static_cast<std::uint32_t>(bits >> 32), false);
   file.write(bytes.data(), bytes.size());
 }
 
@@ -81,19 +95,23 @@ void write_colour(AtomicFile& file, const Colour& colour) {
 }
 
 void write_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
-               const VertexAttributes& attributes) {
+               const VertexAttributes& attributes, const Origin& origin = {}) {
+  const bool placed = !is_zero(origin);
   std::string properties;
   if (!attributes.colours.empty())
     properties += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   for (const auto& [name, values] : attributes.named) properties += "property float " + name + "\n";
   file.write(fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
-      "property float x\nproperty float y\nproperty float z\n{}"
-      "element face {}\nproperty list uchar {} vertex_indices\nend_header\n",
-      mesh.vertex_count, properties, mesh.faces.size(),
+      "ply\nformat binary_little_endian 1.0\nelement vertex {1}\n"
+      "property {0} x\nproperty {0} y\nproperty {0} z\n{2}"
+      "element face {3}\nproperty list uchar {4} vertex_indices\nend_header\n",
+      placed ? "double" : "float", mesh.vertex_count, properties, mesh.faces.size(),
       mesh.vertex_count > std::uint32_t{std::numeric_limits<std::int32_t>::max()} ? "uint" : "int"));
   for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
-    for (std::size_t axis = 0; axis < 3; ++axis) write_float(file, positions[3 * vertex + axis]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float coordinate = positions[3 * vertex + axis];
+      placed ? write_double(file, origin[axis] + double{coordinate}) : write_float(file, coordinate);
+    }
     if (!attributes.colours.empty()) write_colour(file, attributes.colours[vertex]);
     for (const auto& [name, values] : attributes.named) write_float(file, values[vertex]);
   }
@@ -150,16 +168,16 @@ void write_stl(AtomicFile& file, const Mesh& mesh, std::span<const float> positi
 }  // namespace
 
 void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span<const float> positions,
-                const std::string& name) {
+                const std::string& name, const Origin& origin) {
   switch (format) {
     case MeshFormat::kObj:
-      write_obj(file, mesh, positions, name);
+      write_obj(file, mesh, positions, name, origin);
       break;
     case MeshFormat::kPly:
-      write_ply(file, mesh, positions, {});
+      write_ply(file, mesh, positions, {}, origin);
       break;
     case MeshFormat::kOff:
-      write_off(file, mesh, positions);
+      write_off(file, mesh, positions, origin);
       break;
     case MeshFormat::kStl:
       write_stl(file, mesh, positions);

@@ -2,6 +2,7 @@
 #include "tool/atomic_file.hpp"
 #include "tool/colour_map.hpp"
 #include "tool/mesh_format.hpp"
+#include "tool/origin.hpp"
 
 #include <span>
 #include <string>
@@ -17,9 +18,11 @@ inline constexpr const char* kObjMark = "# TVG\n";
 
 /// Writes one frame ([vertex][xyz]) of a mesh. In text formats each number is the shortest that reads back as
 /// the same float32. PLY and STL are binary; STL holds the corners of faces only: the order of vertices, and
-/// vertices without a face, are lost. `name` is the object's name in OBJ, where it is not empty.
+/// vertices without a face, are lost. `name` is the object's name in OBJ, where it is not empty. `origin` is
+/// added, in double, in text and in PLY, which has then properties of double; STL has float32 and stays
+/// relative to it.
 void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span<const float> positions,
-                const std::string& name);
+                const std::string& name, const Origin& origin = {});
 
 /// What a PLY can say of vertices beside where they are.
 struct VertexAttributes {

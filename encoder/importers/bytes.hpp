@@ -1,5 +1,6 @@
 #pragma once
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,6 +32,19 @@ T load(const char* bytes, bool big_endian) {
   std::memcpy(&value, bytes, sizeof value);
   const bool host_is_big = std::endian::native == std::endian::big;
   return big_endian == host_is_big ? value : byte_swapped(value);
+}
+
+/// float16 as float32.
+inline float widened(std::uint16_t half) {
+  const std::uint32_t sign = static_cast<std::uint32_t>(half & 0x8000U) << 16;
+  const int exponent = (half >> 10) & 31;
+  const std::uint32_t fraction = half & 0x3ffU;
+  if (exponent == 0) {
+    const float value = std::ldexp(static_cast<float>(fraction), -24);
+    return sign != 0 ? -value : value;
+  }
+  const std::uint32_t wide = exponent == 31 ? 0xffU : static_cast<std::uint32_t>(exponent - 15 + 127);
+  return std::bit_cast<float>(sign | wide << 23 | fraction << 13);
 }
 
 /// The index of the first NaN or infinity in `values`; their number where all are finite.

@@ -4,6 +4,7 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/npy_source.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,14 +21,16 @@ constexpr std::size_t kPc2HeaderSize = 32;
 constexpr std::size_t kMddHeaderSize = 8;  // without the times
 constexpr char kPc2Signature[12] = {'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
 constexpr std::size_t kPositionSize = 3 * sizeof(float);
+constexpr std::uint64_t kUnknownCount = 0xffffffff;  // -1
 
 struct CacheLayout {
   bool is_pc2 = false;  // else MDD, all of it big-endian
+  bool half = false;    // positions are float16
   std::uint64_t points = 0;
   std::uint64_t frames = 0;
   std::uint64_t data_offset = 0;  // of the first frame
 
-  std::uint64_t frame_size() const { return points * kPositionSize; }
+  std::uint64_t frame_size() const { return points * (half ? kPositionSize / 2 : kPositionSize); }
   std::uint64_t file_size() const { return data_offset + frames * frame_size(); }
 };
 
@@ -40,9 +43,22 @@ class FrameRate {
     const double expected = first_ + static_cast<double>(count_) * step_;
     // A thousandth of a step, and what float32 rounds away.
     const double tolerance = 1e-3 * step_ + 1e-6 * std::abs(expected);
-    if (!(std::abs(time - expected) <= tolerance)) even_ = false;
+    if (!(std::abs(time - expected) <= tolerance)) {
+      if (even_) first_uneven_ = count_;
+      even_ = false;
+    }
     last_ = time;
     ++count_;
+  }
+
+  /// What a user should know of times that a stream cannot keep; empty where they are even.
+  std::string uneven_note() const {
+    if (even_) return "";
+    return fmt::format(
+        "its times, {:.6g} to {:.6g}, are uneven from frame {} on, and are lost: the stream has its frames "
+        "at even "
+        "distances (--fps says how many a second)",
+        first_, last_, first_uneven_);
   }
 
   /// "30", "30000/1001" or the like; empty where the times are uneven or count frames instead of seconds.
@@ -63,18 +79,21 @@ class FrameRate {
   double step_ = 0;
   double last_ = 0;
   bool even_ = true;
+  std::uint64_t first_uneven_ = 0;
 };
 
 class CacheSource final : public FrameSource {
  public:
-  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, std::string mesh_file, bool open_ended)
+  CacheSource(const std::string& path, Mesh mesh, Metadata metadata, std::string mesh_file,
+              std::vector<std::string>& notes, bool open_ended)
       : file_(path),
         mesh_(std::move(mesh)),
         metadata_(std::move(metadata)),
         mesh_file_(std::move(mesh_file)),
-        named_pc2_(has_suffix(path, ".pc2")),
+        named_pc2_(has_suffix(path, ".pc2") || has_suffix(path, ".pc16")),
         open_ended_(open_ended && !file_.size()) {
-    read_header();
+    layout_.half = has_suffix(path, ".pc16");
+    read_header(notes);
   }
 
   const Mesh& mesh() const override { return mesh_; }
@@ -88,11 +107,12 @@ class CacheSource final : public FrameSource {
   bool rewind() override;
 
  private:
-  void read_header();
+  void read_header(std::vector<std::string>& notes);
   void read_pc2_header(std::span<char> header);
-  void read_mdd_times();
+  void read_mdd_times(std::vector<std::string>& notes);
+  void count_unfinished(std::vector<std::string>& notes);
   void check_counts(std::int64_t points, std::int64_t frames) const;
-  void check_size() const;
+  void check_size(std::vector<std::string>& notes) const;
   bool read_positions(std::span<float> positions);
   [[noreturn]] void fail(const std::string& what) const {
     throw ImportError(ErrorCode::kInvalidInput, fmt::format("{}: {}", file_.name(), what));
@@ -116,7 +136,7 @@ class CacheSource final : public FrameSource {
   std::uint64_t next_ = 0;  // frame
 };
 
-void CacheSource::read_header() {
+void CacheSource::read_header(std::vector<std::string>& notes) {
   std::array<char, kPc2HeaderSize> header{};
   std::size_t got = file_.read(header.data(), kMddHeaderSize);
   if (got == 0) fail("the file is empty");
@@ -132,15 +152,17 @@ void CacheSource::read_header() {
   if (!layout_.is_pc2 && named_pc2_) fail("a PC2 cache begins with POINTCACHE2 and a zero byte");
   if (layout_.is_pc2) {
     read_pc2_header(header);
-    check_size();
+    count_unfinished(notes);
+    check_counts(static_cast<std::int32_t>(layout_.points), static_cast<std::int32_t>(layout_.frames));
+    check_size(notes);
   } else {
     open_ended_ = false;  // the table of times has an end
     layout_.frames = load<std::uint32_t>(header.data(), true);
     layout_.points = load<std::uint32_t>(header.data() + 4, true);
     check_counts(load<std::int32_t>(header.data() + 4, true), load<std::int32_t>(header.data(), true));
     layout_.data_offset = kMddHeaderSize + sizeof(float) * layout_.frames;
-    check_size();
-    read_mdd_times();
+    check_size(notes);
+    read_mdd_times(notes);
   }
 }
 
@@ -153,7 +175,21 @@ void CacheSource::read_pc2_header(std::span<char> header) {
   layout_.points = load<std::uint32_t>(header.data() + 16, false);
   layout_.frames = load<std::uint32_t>(header.data() + 28, false);
   layout_.data_offset = kPc2HeaderSize;
-  check_counts(load<std::int32_t>(header.data() + 16, false), load<std::int32_t>(header.data() + 28, false));
+}
+
+/// A program that writes a PC2 front to back fills in the number of frames at the end; where it did not get
+/// there, the header has 0 or -1, and the size of the file tells.
+void CacheSource::count_unfinished(std::vector<std::string>& notes) {
+  if (open_ended_ || !file_.size() || (layout_.frames != 0 && layout_.frames != kUnknownCount)) return;
+  if (layout_.points != mesh_.vertex_count || layout_.points == 0) return;
+  const std::string said = layout_.frames == 0 ? "0" : "-1";
+  const std::uint64_t held =
+      (std::max(*file_.size(), layout_.data_offset) - layout_.data_offset) / layout_.frame_size();
+  if (held == 0) return;
+  layout_.frames = held;
+  notes.push_back(
+      fmt::format("{}: its header says {} frames, which was never put right: {} follow and are taken",
+                  file_.name(), said, held));
 }
 
 void CacheSource::check_counts(std::int64_t points, std::int64_t frames) const {
@@ -169,7 +205,7 @@ void CacheSource::check_counts(std::int64_t points, std::int64_t frames) const {
   if (frames == 0) fail("it holds no frames");
 }
 
-void CacheSource::check_size() const {
+void CacheSource::check_size(std::vector<std::string>& notes) const {
   if (!file_.size()) return;
   const std::uint64_t size = *file_.size();
   if (size < layout_.data_offset) fail_at_end(size, "its table of times; " + promise());
@@ -178,12 +214,13 @@ void CacheSource::check_size() const {
     fail_at_end(size, fmt::format("frame {}; {}", frame, promise()));
   }
   if (size > layout_.file_size()) {
-    fail(fmt::format("{} bytes follow byte {}, where the file should end: {}", size - layout_.file_size(),
-                     layout_.file_size(), promise()));
+    notes.push_back(
+        fmt::format("{}: {} bytes follow byte {}, where the file should end, and are left out: {}",
+                    file_.name(), size - layout_.file_size(), layout_.file_size(), promise()));
   }
 }
 
-void CacheSource::read_mdd_times() {
+void CacheSource::read_mdd_times(std::vector<std::string>& notes) {
   std::array<char, 4096> block;
   FrameRate rate;
   for (std::uint64_t done = 0; done < layout_.frames;) {
@@ -197,6 +234,8 @@ void CacheSource::read_mdd_times() {
     done += wanted;
   }
   if (const std::string fps = rate.text(); !fps.empty()) metadata_.emplace("fps", fps);
+  if (const std::string uneven = rate.uneven_note(); !uneven.empty())
+    notes.push_back(fmt::format("{}: {}", file_.name(), uneven));
 }
 
 Result<bool> CacheSource::read_frame(std::span<float> positions) {
@@ -216,20 +255,27 @@ bool CacheSource::read_positions(std::span<float> positions) {
     }
     return false;
   }
-  const std::size_t got = file_.read(positions.data(), positions.size_bytes());
+  const std::size_t bytes = layout_.half ? positions.size_bytes() / 2 : positions.size_bytes();
+  // Of float16 the bytes go to the second half, so that widening them front to back runs over none unread.
+  char* const raw = reinterpret_cast<char*>(positions.data()) + (positions.size_bytes() - bytes);
+  const std::size_t got = file_.read(raw, bytes);
   if (got == 0 && open_ended_) return false;
-  if (got < positions.size_bytes()) {
+  if (got < bytes) {
     fail_at_end(layout_.data_offset + next_ * layout_.frame_size() + got,
                 fmt::format("frame {}; {}", next_, promise()));
   }
   const bool big_endian = !layout_.is_pc2;
-  if (big_endian != (std::endian::native == std::endian::big)) {
+  if (layout_.half) {
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      positions[i] = widened(load<std::uint16_t>(raw + 2 * i, false));
+  } else if (big_endian != (std::endian::native == std::endian::big)) {
     for (float& value : positions) value = byte_swapped(value);
   }
   const std::size_t bad = find_non_finite(positions);
   if (bad < positions.size()) {
-    fail(fmt::format("frame {}, vertex {} has a coordinate that is NaN or infinite (byte {})", next_, bad / 3,
-                     layout_.data_offset + next_ * layout_.frame_size() + bad * sizeof(float)));
+    fail(fmt::format(
+        "frame {}, vertex {} has a coordinate that is NaN or infinite (byte {})", next_, bad / 3,
+        layout_.data_offset + next_ * layout_.frame_size() + bad * (layout_.half ? 2 : sizeof(float))));
   }
   ++next_;
   return true;
@@ -270,8 +316,11 @@ bool CacheSource::rewind() {
 }  // namespace
 
 std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
-                                        const std::string& mesh_file, bool open_ended) {
-  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, open_ended);
+                                        const std::string& mesh_file, std::vector<std::string>& notes,
+                                        bool open_ended) {
+  if (has_suffix(path, ".npy")) return open_npy(path, std::move(mesh), std::move(metadata), mesh_file);
+  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, notes,
+                                       open_ended);
 }
 
 }  // namespace tvg::cli

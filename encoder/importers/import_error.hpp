@@ -21,4 +21,10 @@ class ImportError : public ToolError {
   ErrorCode code_;
 };
 
+/// An input that has nothing to show: no bytes, or a mesh without faces.
+class EmptyInputError : public ImportError {
+ public:
+  explicit EmptyInputError(const std::string& message) : ImportError(ErrorCode::kInvalidInput, message) {}
+};
+
 }  // namespace tvg::cli

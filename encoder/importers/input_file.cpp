@@ -72,7 +72,7 @@ void read_file(const std::string& path, std::string& bytes, std::uint64_t most_u
     bytes.resize(std::min<std::uint64_t>(bytes.size() + std::max(bytes.size(), kBlock), most + 1));
   }
   bytes.resize(filled);
-  if (filled == 0) throw ImportError(ErrorCode::kInvalidInput, file.name() + " is empty");
+  if (filled == 0) throw EmptyInputError(file.name() + " is empty");
 }
 
 void require_regular_file(const std::string& path) {

@@ -35,8 +35,9 @@ class InputFile {
 /// end.
 inline constexpr std::uint64_t kMostUnsizedBytes = std::uint64_t{1} << 29;
 
-/// Reads a whole file into `bytes`, whose capacity is reused. An empty file is an ImportError
-/// (kInvalidInput), as is one that goes on beyond the size the system says and `most_unsized` bytes.
+/// Reads a whole file into `bytes`, whose capacity is reused. An empty file is an
+/// EmptyInputError; one is an ImportError (kInvalidInput) that goes on beyond the size the system says and
+/// `most_unsized` bytes.
 void read_file(const std::string& path, std::string& bytes, std::uint64_t most_unsized = kMostUnsizedBytes);
 
 /// Throws ImportError (kIo) where `path` names a pipe or a device, without opening it: for files that are

@@ -4,91 +4,203 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace tvg::cli {
 
-WeldedMesh read_welded_mesh(const std::string& path) {
-  WeldedMesh welded;
-  welded.format = mesh_format(path).value();
-  std::string buffer;
-  read_mesh_file(path, welded.format, buffer, welded.mesh);
-  if (welded.mesh.polygons > 0) {
-    welded.notes.push_back(fmt::format("{}: {} polygons triangulated to {} triangles", path,
-                                       welded.mesh.polygons, welded.mesh.polygon_triangles));
+namespace {
+
+/// What is to be said of a mesh that was read, each with its file.
+std::vector<std::string> notes_on(const std::string& path, const MeshFile& mesh) {
+  std::vector<std::string> notes;
+  if (!mesh.polygons.empty()) {
+    std::uint64_t triangles = 0;
+    for (const Polygon& polygon : mesh.polygons) triangles += polygon.corners - 2;
+    notes.push_back(
+        fmt::format("{}: {} polygons triangulated to {} triangles", path, mesh.polygons.size(), triangles));
   }
-  if (welded.format == MeshFormat::kStl) {
-    welded.weld = weld_positions(welded.mesh.positions);
-    static_cast<void>(apply_weld(welded.weld, welded.mesh));
-    welded.notes.push_back(fmt::format("{}: {} corners welded to {} vertices", path,
-                                       welded.weld.vertex_of_point.size(), welded.weld.vertex_count()));
+  for (const std::string& note : mesh.notes) notes.push_back(fmt::format("{}: {}", path, note));
+  return notes;
+}
+
+std::string weld_note(const std::string& path, const StlWeld& stl) {
+  return fmt::format("{}: {} corners welded to {} vertices", path, stl.weld().vertex_of_point.size(),
+                     stl.weld().vertex_count());
+}
+
+}  // namespace
+
+WeldedMesh read_welded_mesh(const std::string& path, const WeldTolerance& tolerance) {
+  WeldedMesh welded;
+  const MeshFormat format = mesh_format(path).value();
+  std::string buffer;
+  read_mesh_file(path, format, buffer, welded.mesh);
+  welded.notes = notes_on(path, welded.mesh);
+  if (format == MeshFormat::kStl) {
+    const StlWeld stl(welded.mesh.positions, tolerance);
+    apply_weld(stl.weld(), welded.mesh);
+    welded.notes.push_back(weld_note(path, stl));
   }
   return welded;
 }
 
-MeshSequenceSource::MeshSequenceSource(std::vector<std::string> files, WeldedMesh first,
+MeshSequenceSource::MeshSequenceSource(std::vector<std::string> files, const SequenceOptions& options,
                                        std::uint64_t first_frame)
-    : files_(std::move(files)), first_(std::move(first)), first_frame_(first_frame) {
-  mesh_.vertex_count = static_cast<std::uint32_t>(first_.mesh.vertex_count());
-  mesh_.faces = std::move(first_.mesh.faces);
+    : files_(std::move(files)),
+      options_(options),
+      first_frame_(first_frame),
+      format_(mesh_format(files_[0]).value()) {
+  begin_stretch();
+}
+
+/// Reads the mesh of the file that comes next.
+void MeshSequenceSource::begin_stretch() {
+  for (stretch_ = next_;; ++stretch_) {
+    current_.origin = options_.origin;
+    try {
+      read_located_mesh(files_[stretch_], format_, buffer_, current_);
+      break;
+    } catch (const EmptyInputError& empty) {
+      const bool is_last = stretch_ + 1 == files_.size();
+      next_ = stretch_;
+      if (options_.gaps != Gaps::kSkip || is_last) take_empty_frame(empty.what());
+    }
+  }
+  next_ = stretch_;
+  mesh_file_ = files_[stretch_];
+  // What the first file says of the origin holds for all.
+  options_.origin = current_.origin.value_or(Origin{});
+  notes_ = notes_on(mesh_file_, current_);
+  if (format_ == MeshFormat::kStl) {
+    look_through_stl(mesh_file_);
+    apply_weld(stl_.weld(), current_);
+  }
+  mesh_ = {static_cast<std::uint32_t>(current_.vertex_count()), current_.faces};
+  if (name_.empty()) name_ = current_.name;
+  order_ = FaceOrder(current_.faces, current_.polygons);
+  last_.clear();
+}
+
+void MeshSequenceSource::look_through_stl(const std::string& first) {
+  stl_ = StlWeld(current_.positions, options_.weld);
+  std::string torn_in;
+  MeshFile mesh;
+  for (std::size_t file = stretch_ + 1; file < files_.size(); ++file) {
+    if (files_[file] == files_[file - 1]) continue;
+    mesh.origin = options_.origin;
+    try {
+      read_located_mesh(files_[file], format_, buffer_, mesh);
+    } catch (const EmptyInputError&) {
+      continue;
+    } catch (const ImportError&) {
+      break;  // told when the frame is read
+    }
+    if (!stl_.refine(mesh, first).empty()) break;
+    if (torn_in.empty() && stl_.split_vertices() > 0) torn_in = files_[file];
+  }
+  stl_.rewind();
+  notes_.push_back(weld_note(first, stl_));
+  if (!torn_in.empty()) {
+    notes_.push_back(fmt::format(
+        "{} of them share a place in {} and come apart later, first in {} (--weld TOLERANCE joins what lies "
+        "closer)",
+        stl_.split_vertices(), first, torn_in));
+  }
+  if (stl_.reordered())
+    notes_.push_back("the triangles stand in another order in some of the files, and were matched");
 }
 
 Metadata MeshSequenceSource::metadata() const {
   Metadata metadata;
-  if (!first_.mesh.name.empty()) metadata.emplace("name", first_.mesh.name);
+  if (!name_.empty()) metadata.emplace("name", name_);
+  if (options_.origin && !is_zero(*options_.origin))
+    metadata.emplace(kOriginKey, origin_text(*options_.origin));
   return metadata;
 }
 
+std::optional<std::uint64_t> MeshSequenceSource::frame_count() const {
+  if (options_.gaps == Gaps::kSkip) return std::nullopt;
+  return files_.size();
+}
+
 Result<bool> MeshSequenceSource::read_frame(std::span<float> positions) {
-  if (next_ == files_.size()) return false;
-  if (next_ == 0) {
-    std::copy(first_.mesh.positions.begin(), first_.mesh.positions.end(), positions.begin());
-  } else {
+  changed_ = false;
+  try {
+    while (next_ < files_.size()) {
+      if (read_next(positions)) return true;
+    }
+    return false;
+  } catch (const ImportError& error) {
+    return error.as_value();
+  }
+}
+
+/// Reads the next file; false where it is left out.
+bool MeshSequenceSource::read_next(std::span<float> positions) {
+  const bool held = next_ > stretch_ && files_[next_] == files_[next_ - 1] && !last_.empty();
+  if (!held) {
     try {
       read_positions(files_[next_], positions);
-    } catch (const ImportError& error) {
-      return error.as_value();
+      last_.assign(positions.begin(), positions.end());
+    } catch (const EmptyInputError& empty) {
+      take_empty_frame(empty.what());
+      if (options_.gaps == Gaps::kSkip) {
+        ++next_;
+        return false;
+      }
     }
   }
+  std::copy(last_.begin(), last_.end(), positions.begin());
   ++next_;
   return true;
 }
 
+void MeshSequenceSource::take_empty_frame(const std::string& what) {
+  const std::uint64_t frame = first_frame_ + next_;
+  if (options_.gaps == Gaps::kRefuse || (options_.gaps == Gaps::kHold && last_.empty())) {
+    throw ImportError(
+        ErrorCode::kInvalidInput,
+        fmt::format("{} (frame {}). {}", what, frame,
+                    options_.gaps == Gaps::kRefuse
+                        ? "`--gaps hold` shows the frame before it again, `--gaps skip` leaves it out"
+                        : "There is no frame before it to hold: `--gaps skip` leaves it out"));
+  }
+  if (options_.gaps == Gaps::kSkip && next_ + 1 == files_.size() && last_.empty())
+    throw ImportError(ErrorCode::kInvalidInput, what + ", and no other file of the sequence has any");
+  later_->add(files_[next_], options_.gaps == Gaps::kHold ? "it has no faces: the frame before it is held"
+                                                          : "it has no faces and is left out");
+}
+
 void MeshSequenceSource::read_positions(const std::string& path, std::span<float> positions) {
-  read_mesh_file(path, first_.format, buffer_, current_);
-  if (first_.format == MeshFormat::kStl) weld_frame(path);
+  current_.origin = options_.origin;
+  read_located_mesh(path, format_, buffer_, current_);
+  if (format_ == MeshFormat::kStl) {
+    if (next_ == stretch_) stl_.rewind();
+    const std::string other = stl_.apply(current_, mesh_file_);
+    if (!other.empty()) fail_changed(path, other);
+  }
   if (current_.vertex_count() != mesh_.vertex_count) {
-    fail_changed(path, fmt::format("has {} vertices where {} has {}", current_.vertex_count(), files_[0],
+    fail_changed(path, fmt::format("has {} vertices where {} has {}", current_.vertex_count(), mesh_file_,
                                    mesh_.vertex_count));
   }
-  if (current_.faces.size() != mesh_.faces.size()) {
-    fail_changed(path, fmt::format("has {} triangles where {} has {}", current_.faces.size(), files_[0],
-                                   mesh_.faces.size()));
+  // Of STL the facets are matched, and their corners are all there is.
+  if (format_ != MeshFormat::kStl) {
+    const std::string difference = order_.difference(current_, mesh_file_);
+    if (!difference.empty()) fail_changed(path, difference);
   }
-  const auto [ours, theirs] =
-      std::mismatch(current_.faces.begin(), current_.faces.end(), mesh_.faces.begin());
-  if (ours != current_.faces.end()) {
-    fail_changed(path, fmt::format("has the vertices {} {} {} in triangle {} where {} has {} {} {}",
-                                   (*ours)[0], (*ours)[1], (*ours)[2], ours - current_.faces.begin(),
-                                   files_[0], (*theirs)[0], (*theirs)[1], (*theirs)[2]));
+  if (!last_.empty()) {
+    for (const std::uint32_t vertex : current_.misplaced) {
+      const auto place = static_cast<std::ptrdiff_t>(3 * std::size_t{vertex});
+      std::copy_n(last_.begin() + place, 3, current_.positions.begin() + place);
+    }
   }
   std::copy(current_.positions.begin(), current_.positions.end(), positions.begin());
+  if (next_ == stretch_) return;
+  for (const std::string& note : current_.notes) later_->add(path, note);
 }
 
-void MeshSequenceSource::weld_frame(const std::string& path) {
-  const std::size_t corners = first_.weld.vertex_of_point.size();
-  if (current_.vertex_count() != corners) {
-    fail_changed(
-        path, fmt::format("has {} triangles where {} has {}", current_.faces.size(), files_[0], corners / 3));
-  }
-  const std::optional<std::size_t> torn = apply_weld(first_.weld, current_);
-  if (torn) {
-    fail_changed(path,
-                 fmt::format("tears corner {} of triangle {} off the corners that share its vertex in {}",
-                             *torn % 3, *torn / 3, files_[0]));
-  }
-}
-
-void MeshSequenceSource::fail_changed(const std::string& path, const std::string& difference) const {
+void MeshSequenceSource::fail_changed(const std::string& path, const std::string& difference) {
+  changed_ = true;
   const std::uint64_t frame = first_frame_ + next_;
   throw ImportError(
       ErrorCode::kInvalidInput,
@@ -97,13 +209,29 @@ void MeshSequenceSource::fail_changed(const std::string& path, const std::string
                   path, frame, difference, first_frame_, frame - 1, frame));
 }
 
+bool MeshSequenceSource::go_on_with_next_mesh() {
+  if (!changed_) return false;
+  changed_ = false;
+  begin_stretch();
+  return true;
+}
+
 Status MeshSequenceSource::skip_frames(std::uint64_t count) {
+  // Which file is how many frames on, and where triangles stand, only reading tells.
+  if (options_.gaps == Gaps::kSkip || stl_.reordered()) return FrameSource::skip_frames(count);
   next_ += count;
   return {};
 }
 
 bool MeshSequenceSource::rewind() {
   next_ = 0;
+  last_.clear();
+  if (stretch_ == 0) return true;
+  try {
+    begin_stretch();
+  } catch (const ImportError&) {
+    return false;
+  }
   return true;
 }
 

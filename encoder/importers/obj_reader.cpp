@@ -2,7 +2,7 @@
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/text_cursor.hpp"
 
-#include <cmath>
+#include <array>
 #include <fmt/format.h>
 #include <limits>
 
@@ -15,7 +15,9 @@ constexpr std::uint64_t kMaximumVertices = std::numeric_limits<std::uint32_t>::m
 class ObjReader {
  public:
   ObjReader(const std::string& file, std::string_view text, MeshFile& mesh)
-      : file_(file), cursor_(file, text), mesh_(mesh), fan_(mesh) {}
+      : file_(file), cursor_(file, text), mesh_(mesh), builder_(mesh) {
+    cursor_.expect_whole_lines();
+  }
 
   void read() {
     for (; !cursor_.at_end(); cursor_.next_line()) {
@@ -29,39 +31,36 @@ class ObjReader {
         if (is_plain_text(name)) mesh_.name = name;
       }
     }
-    if (mesh_.faces.empty()) {
-      throw ImportError(ErrorCode::kInvalidInput,
-                        fmt::format("{} has no faces (lines that begin with 'f')", file_));
-    }
     if (largest_index_ > mesh_.vertex_count()) {
       throw ImportError(ErrorCode::kInvalidInput,
                         fmt::format("{}, line {}: the face uses vertex {}, but the file has {} vertices",
                                     file_, largest_index_line_, largest_index_, mesh_.vertex_count()));
     }
+    builder_.finish(file_, " (lines that begin with 'f')");
   }
 
  private:
   void read_vertex() {
     if (mesh_.vertex_count() == kMaximumVertices) cursor_.fail("more vertices than 32-bit indices can name");
-    for (int axis = 0; axis < 3; ++axis) {
+    std::array<float, 3> position{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       cursor_.skip_blanks_and_continuations();
-      const float value = cursor_.number();
-      if (!std::isfinite(value)) {
-        cursor_.fail(fmt::format("vertex {} has a coordinate that is NaN or infinite", mesh_.vertex_count()));
-      }
-      mesh_.positions.push_back(value);
+      position[axis] = mesh_.origin ? mesh_.relative(cursor_.wide_number(), axis) : cursor_.number();
     }
+    builder_.add_vertex(position, [this] { return fmt::format("{}, line {}", file_, cursor_.line()); });
   }
 
   void read_face() {
-    fan_.begin();
+    builder_.begin_face();
     for (;;) {
       cursor_.skip_blanks_and_continuations();
-      if (cursor_.peek() == '\n' || cursor_.peek() == '#') break;
-      fan_.add(read_corner());
+      if (cursor_.at_line_end() || cursor_.peek() == '#') break;
+      builder_.add_corner(read_corner());
     }
-    if (!fan_.end())
-      cursor_.fail(fmt::format("a face needs three corners or more, this one has {}", fan_.corners()));
+    if (builder_.corners() < 3 && cursor_.at_end()) {
+      cursor_.fail(fmt::format("a face needs three corners, this one has {}", builder_.corners()));
+    }
+    builder_.end_face();
   }
 
   /// V, V/T, V//N or V/T/N; returns V counted from 0.
@@ -90,7 +89,7 @@ class ObjReader {
   const std::string& file_;
   TextCursor cursor_;
   MeshFile& mesh_;
-  FanBuilder fan_;
+  MeshBuilder builder_;
   std::uint64_t largest_index_ = 0;  // counted from 1
   std::size_t largest_index_line_ = 0;
 };
@@ -99,8 +98,10 @@ class ObjReader {
 
 void parse_obj(const std::string& file, std::string_view bytes, MeshFile& mesh) {
   mesh.clear();
-  require_whole_text(file, bytes);
-  ObjReader(file, bytes, mesh).read();
+  const std::string_view text = without_byte_order_mark(file, bytes);
+  require_text(file, text);
+  ObjReader(file, text, mesh).read();
+  if (std::string note = unended_line_note(text); !note.empty()) mesh.notes.push_back(std::move(note));
 }
 
 }  // namespace tvg::cli

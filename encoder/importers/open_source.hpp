@@ -1,4 +1,5 @@
 #pragma once
+#include "encoder/importers/mesh_sequence.hpp"
 #include "encoder/importers/scene_options.hpp"
 
 #include <memory>
@@ -12,8 +13,9 @@ namespace tvg::cli {
 
 /// What a user names as input.
 struct SourceSpec {
-  /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, MDD, or "-" for a cache on standard
-  /// input); or a sequence of mesh files, as a folder or a pattern ("walk_%04d.obj", "walk_####.obj"); one
+  /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, PC16, MDD, or "-" for a
+  /// cache on standard input), which is found by itself where it lies beside the mesh under its name; or a
+  /// sequence of mesh files, as a folder, a pattern ("walk_%04d.obj", "walk_####.obj") or all its files; one
   /// mesh file; or a scene (scene_source.hpp).
   std::vector<std::string> inputs;
   /// The frames wanted, counted from 0 whatever the numbers in the files' names; all where absent.
@@ -28,12 +30,18 @@ struct SourceSpec {
   /// says. Its frame_count() is then unknown, and read_frame() is kTruncated where the pipe ends inside a
   /// frame.
   bool open_ended = false;
+  /// Of a sequence, and how corners of STL are welded.
+  SequenceOptions sequence = {};
+  /// The axis that is up in a cache, where the mesh has another: "y" or "z"; its positions are turned. None
+  /// where empty.
+  std::string cache_up = {};
 };
 
 struct OpenedSource {
   std::unique_ptr<FrameSource> source;
   std::vector<std::string>
       notes;  ///< for the user, e.g. "chicken.obj: 120 polygons triangulated to 240 triangles"
+  std::shared_ptr<ReadNotes> later = {};  ///< what reading brings to light; may be none
 };
 
 /// Opens what a user names. One frame is in memory at a time. The mesh of a sequence is that of its first

@@ -74,14 +74,21 @@ class HeaderReader {
   }
 
  private:
+  /// A line without its end and the blanks before it. Where the first line ends with CR alone, all do: what
+  /// follows the header's last may be binary.
   std::string_view next_line() {
-    const std::size_t end = bytes_.find('\n', header_.size);
+    if (header_.lines == 0) {
+      const std::size_t first = bytes_.find_first_of("\r\n");
+      if (first != bytes_.npos && bytes_[first] == '\r' && bytes_.substr(first + 1, 1) != "\n")
+        line_end_ = '\r';
+    }
+    const std::size_t end = bytes_.find(line_end_, header_.size);
     if (end == bytes_.npos) {
       throw ImportError(ErrorCode::kTruncated, fmt::format("{} ends at byte {} inside line {} of its header",
                                                            file_, bytes_.size(), header_.lines + 1));
     }
     std::string_view line = bytes_.substr(header_.size, end - header_.size);
-    if (line.ends_with('\r')) line.remove_suffix(1);
+    while (!line.empty() && (line.back() == '\r' || TextCursor::is_blank(line.back()))) line.remove_suffix(1);
     header_.size = end + 1;
     ++header_.lines;
     return line;
@@ -154,6 +161,7 @@ class HeaderReader {
 
   const std::string& file_;
   std::string_view bytes_;
+  char line_end_ = '\n';
   PlyHeader header_;
   std::unordered_set<std::string> names_;  // of the properties of the present element
   std::size_t properties_ = 0;             // of all elements

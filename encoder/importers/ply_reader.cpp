@@ -4,6 +4,7 @@
 #include "encoder/importers/ply_header.hpp"
 #include "encoder/importers/text_cursor.hpp"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -12,18 +13,15 @@ namespace tvg::cli {
 
 namespace {
 
-/// The value as float32; infinite where it is too large.
-float to_float(double value) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  if (std::abs(value) > kLargest) return std::numeric_limits<float>::infinity();
-  return static_cast<float>(value);
-}
+constexpr const char* kStrips = "tristrips";
 
 /// The values of an ASCII body: one line per element.
 class TextValues {
  public:
   TextValues(const std::string& file, std::string_view bytes, const PlyHeader& header)
-      : cursor_(file, bytes.substr(header.size), header.lines + 1) {}
+      : file_(file), cursor_(file, bytes.substr(header.size), header.lines + 1) {
+    cursor_.expect_whole_lines();
+  }
 
   void begin_element(const PlyElement& element, std::uint64_t index) {
     while (cursor_.at_line_end()) {
@@ -37,22 +35,28 @@ class TextValues {
     if (!cursor_.at_line_end()) cursor_.fail("more values than the header promises");
     cursor_.next_line();
   }
-  float real(PlyType) { return cursor_.number(); }
+  float coordinate(PlyType, std::size_t axis, MeshFile& mesh) {
+    return mesh.origin ? mesh.relative(cursor_.wide_number(), axis) : cursor_.number();
+  }
   std::int64_t integer(PlyType) { return cursor_.integer(); }
   void skip(PlyType, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) {
       if (cursor_.word().empty()) cursor_.fail("fewer values than the header promises");
     }
   }
-  void finish() {
+  /// Bytes behind what the header promises.
+  std::uint64_t finish() {
     while (!cursor_.at_end()) {
       if (!cursor_.at_line_end()) cursor_.fail("more lines than the header promises");
       cursor_.next_line();
     }
+    return 0;
   }
+  std::string place() const { return fmt::format("{}, line {}", file_, cursor_.line()); }
   [[noreturn]] void fail(const std::string& what) { cursor_.fail(what); }
 
  private:
+  const std::string& file_;
   TextCursor cursor_;
 };
 
@@ -70,15 +74,14 @@ class BinaryValues {
     index_ = index;
   }
   void end_element() {}
-  float real(PlyType type) {
-    switch (type) {
-      case PlyType::kFloat32:
-        return take<float>();
-      case PlyType::kFloat64:
-        return to_float(take<double>());
-      default:
-        return static_cast<float>(integer(type));
-    }
+  float coordinate(PlyType type, std::size_t axis, MeshFile& mesh) {
+    if (type == PlyType::kFloat32 && !mesh.origin) return take<float>();
+    const double value = type == PlyType::kFloat32   ? double{take<float>()}
+                         : type == PlyType::kFloat64 ? take<double>()
+                                                     : static_cast<double>(integer(type));
+    if (mesh.origin) return mesh.relative(value, axis);
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    return std::abs(value) > kLargest ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
   }
   std::int64_t integer(PlyType type) {
     switch (type) {
@@ -103,13 +106,8 @@ class BinaryValues {
     if (count > (bytes_.size() - next_) / size) fail_at_end();
     next_ += count * size;
   }
-  void finish() {
-    if (next_ == bytes_.size()) return;
-    throw ImportError(
-        ErrorCode::kInvalidInput,
-        fmt::format("{} has {} bytes after byte {}, where the data that its header promises end", file_,
-                    bytes_.size() - next_, next_));
-  }
+  std::uint64_t finish() const { return bytes_.size() - next_; }
+  std::string place() const { return fmt::format("{}, byte {}", file_, next_); }
   [[noreturn]] void fail(const std::string& what) {
     throw ImportError(ErrorCode::kInvalidInput,
                       fmt::format("{}, byte {}, {} {}: {}", file_, next_, element_->name, index_, what));
@@ -137,90 +135,120 @@ class BinaryValues {
   std::uint64_t index_ = 0;
 };
 
+/// The list of an element that holds vertices; the number of properties where there is none.
+std::size_t indices_property(const PlyElement& element) {
+  const std::size_t index = element.find("vertex_indices");
+  return index < element.properties.size() ? index : element.find("vertex_index");
+}
+
 template <class Values>
 class BodyReader {
  public:
   BodyReader(const PlyHeader& header, Values values, MeshFile& mesh)
-      : header_(header), values_(std::move(values)), mesh_(mesh), fan_(mesh) {}
+      : header_(header), values_(std::move(values)), mesh_(mesh), builder_(mesh) {}
 
-  void read(std::uint64_t vertex_count) {
+  void read(const std::string& file, std::uint64_t vertex_count) {
     vertex_count_ = vertex_count;
     for (const PlyElement& element : header_.elements) {
-      if (element.properties.empty()) continue;
-      const bool is_vertex = element.name == "vertex";
-      const bool is_face = element.name == "face";
-      const std::size_t list = indices_property(element);
-      const std::size_t axes[3] = {element.find("x"), element.find("y"), element.find("z")};
-      for (std::uint64_t index = 0; index < element.count; ++index) {
-        values_.begin_element(element, index);
-        if (is_vertex) {
-          read_vertex(element, axes, index);
-        } else {
-          for (std::size_t p = 0; p < element.properties.size(); ++p) {
-            if (is_face && p == list) {
-              read_face(element.properties[p]);
-            } else {
-              skip(element.properties[p]);
-            }
-          }
-        }
-        values_.end_element();
-      }
+      if (!element.properties.empty()) read_element(element);
     }
-    values_.finish();
-  }
-
-  static std::size_t indices_property(const PlyElement& element) {
-    const std::size_t index = element.find("vertex_indices");
-    return index < element.properties.size() ? index : element.find("vertex_index");
+    builder_.finish(file);
+    if (const std::uint64_t trailing = values_.finish(); trailing > 0) {
+      mesh_.notes.push_back(fmt::format("{} bytes behind what its header promises left out", trailing));
+    }
   }
 
  private:
-  void read_vertex(const PlyElement& element, const std::size_t (&axes)[3], std::uint64_t index) {
-    float position[3] = {};
+  void read_element(const PlyElement& element) {
+    const bool is_vertex = element.name == "vertex";
+    const bool is_face = element.name == "face";
+    const bool is_strip = element.name == kStrips;
+    const std::size_t list = is_face || is_strip ? indices_property(element) : element.properties.size();
+    const std::size_t axes[3] = {element.find("x"), element.find("y"), element.find("z")};
+    for (std::uint64_t index = 0; index < element.count; ++index) {
+      values_.begin_element(element, index);
+      for (std::size_t p = 0; p < element.properties.size() && !is_vertex; ++p) {
+        if (p != list) {
+          skip(element.properties[p]);
+        } else if (is_face) {
+          read_face(element.properties[p]);
+        } else {
+          read_strips(element.properties[p]);
+        }
+      }
+      if (is_vertex) read_vertex(element, axes);
+      values_.end_element();
+    }
+  }
+
+  void read_vertex(const PlyElement& element, const std::size_t (&axes)[3]) {
+    std::array<float, 3> position{};
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       std::size_t axis = 0;
       while (axis < 3 && axes[axis] != p) ++axis;
       if (axis == 3) {
         skip(property);
-        continue;
-      }
-      position[axis] = values_.real(property.type);
-      if (!std::isfinite(position[axis])) {
-        values_.fail(fmt::format("vertex {} has a coordinate that is NaN or infinite", index));
+      } else {
+        position[axis] = values_.coordinate(property.type, axis, mesh_);
       }
     }
-    mesh_.positions.insert(mesh_.positions.end(), position, position + 3);
+    builder_.add_vertex(position, [this] { return values_.place(); });
+  }
+
+  std::int64_t read_length(const PlyProperty& property) {
+    const std::int64_t count = values_.integer(property.count_type);
+    if (count < 0) values_.fail(fmt::format("the list '{}' has the length {}", property.name, count));
+    return count;
+  }
+
+  std::uint32_t checked(std::int64_t index) {
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_) {
+      values_.fail(fmt::format("the face uses vertex {}, but there are vertices 0 to {}", index,
+                               static_cast<std::int64_t>(vertex_count_) - 1));
+    }
+    return static_cast<std::uint32_t>(index);
   }
 
   void read_face(const PlyProperty& property) {
-    const std::int64_t corners = values_.integer(property.count_type);
-    if (corners < 3)
-      values_.fail(fmt::format("a face needs three corners or more, this one has {}", corners));
-    fan_.begin();
-    for (std::int64_t corner = 0; corner < corners; ++corner) {
+    const std::int64_t corners = read_length(property);
+    builder_.begin_face();
+    for (std::int64_t corner = 0; corner < corners; ++corner)
+      builder_.add_corner(checked(values_.integer(property.type)));
+    builder_.end_face();
+  }
+
+  /// Strips of triangles one behind the other, -1 after each: every second triangle of a strip has its first
+  /// two corners swapped. Triangles with a corner twice only lead the strip on.
+  void read_strips(const PlyProperty& property) {
+    const std::int64_t length = read_length(property);
+    std::array<std::uint32_t, 2> before{};
+    std::uint64_t place = 0;
+    for (std::int64_t i = 0; i < length; ++i) {
       const std::int64_t index = values_.integer(property.type);
-      if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_) {
-        values_.fail(fmt::format("the face uses vertex {}, but there are vertices 0 to {}", index,
-                                 static_cast<std::int64_t>(vertex_count_) - 1));
+      if (index == -1 || (property.type == PlyType::kUint32 && index == std::int64_t{0xffffffff})) {
+        place = 0;
+        continue;
       }
-      fan_.add(static_cast<std::uint32_t>(index));
+      const std::uint32_t vertex = checked(index);
+      if (place >= 2 && vertex != before[0] && vertex != before[1] && before[0] != before[1]) {
+        const bool odd = place % 2 == 1;
+        mesh_.faces.push_back({before[odd ? 1 : 0], before[odd ? 0 : 1], vertex});
+      }
+      before = {before[1], vertex};
+      ++place;
     }
-    static_cast<void>(fan_.end());
   }
 
   void skip(const PlyProperty& property) {
-    std::int64_t count = 1;
-    if (property.is_list) count = values_.integer(property.count_type);
-    if (count < 0) values_.fail(fmt::format("the list '{}' has the length {}", property.name, count));
+    const std::int64_t count = property.is_list ? read_length(property) : 1;
     values_.skip(property.type, static_cast<std::uint64_t>(count));
   }
 
   const PlyHeader& header_;
   Values values_;
   MeshFile& mesh_;
-  FanBuilder fan_;
+  MeshBuilder builder_;
   std::uint64_t vertex_count_ = 0;
 };
 
@@ -250,36 +278,38 @@ void check_vertex_element(const std::string& file, const PlyHeader& header) {
   }
 }
 
-void check_face_element(const std::string& file, const PlyHeader& header) {
-  const PlyElement* face = find_element(header, "face");
-  if (face == nullptr || face->count == 0) {
-    const bool strips = find_element(header, "tristrips") != nullptr;
-    throw ImportError(ErrorCode::kInvalidInput, fmt::format("{} has no faces{}", file,
-                                                            strips ? " (triangle strips are not read)" : ""));
+/// Whether an element of faces or strips is there and has anything; checks its list.
+bool has_indices(const std::string& file, const PlyHeader& header, const char* name) {
+  const PlyElement* element = find_element(header, name);
+  if (element == nullptr || element->count == 0) return false;
+  const std::size_t list = indices_property(*element);
+  if (list == element->properties.size() || !element->properties[list].is_list) {
+    fail_in_header(file, element->line, fmt::format("the element '{}' has no list 'vertex_indices'", name));
   }
-  const std::size_t list = BodyReader<TextValues>::indices_property(*face);
-  if (list == face->properties.size() || !face->properties[list].is_list) {
-    fail_in_header(file, face->line, "the element 'face' has no list 'vertex_indices'");
-  }
-  const PlyType type = face->properties[list].type;
+  const PlyType type = element->properties[list].type;
   if (type == PlyType::kFloat32 || type == PlyType::kFloat64) {
-    fail_in_header(file, face->line, "the indices of 'face' must be whole numbers");
+    fail_in_header(file, element->line, fmt::format("the indices of '{}' must be whole numbers", name));
   }
+  return true;
 }
 
 }  // namespace
 
 void parse_ply(const std::string& file, std::string_view bytes, MeshFile& mesh) {
   mesh.clear();
+  bytes = without_byte_order_mark(file, bytes);
   const PlyHeader header = parse_ply_header(file, bytes);
   check_vertex_element(file, header);
-  check_face_element(file, header);
+  const bool faces = has_indices(file, header, "face");
+  const bool strips = has_indices(file, header, kStrips);
+  if (!faces && !strips) throw EmptyInputError(fmt::format("{} has no faces", file));
   const std::uint64_t vertices = find_element(header, "vertex")->count;
   if (header.encoding == PlyEncoding::kAscii) {
-    require_whole_text(file, bytes);
-    BodyReader(header, TextValues(file, bytes, header), mesh).read(vertices);
+    require_text(file, bytes);
+    BodyReader(header, TextValues(file, bytes, header), mesh).read(file, vertices);
+    if (std::string note = unended_line_note(bytes); !note.empty()) mesh.notes.push_back(std::move(note));
   } else {
-    BodyReader(header, BinaryValues(file, bytes, header), mesh).read(vertices);
+    BodyReader(header, BinaryValues(file, bytes, header), mesh).read(file, vertices);
   }
 }
 

@@ -23,19 +23,21 @@ bool same_word(std::string_view a, std::string_view b) {
   });
 }
 
+/// -0 is the same place as 0: positions are read with 0 added.
 void add_face(MeshFile& mesh) {
   const auto corner = static_cast<std::uint32_t>(3 * mesh.faces.size());
   mesh.faces.push_back({corner, corner + 1, corner + 2});
 }
 
+std::uint64_t promised_triangles(std::string_view bytes) {
+  return load<std::uint32_t>(bytes.data() + 80, false);
+}
+
 /// Binary files may begin with the word "solid" too: their size tells them apart, and in a cut one their
 /// bytes.
 bool is_ascii(std::string_view bytes) {
-  if (bytes.size() >= kHeaderSize &&
-      bytes.size() ==
-          kHeaderSize + kTriangleSize * std::uint64_t{load<std::uint32_t>(bytes.data() + 80, false)}) {
+  if (bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + kTriangleSize * promised_triangles(bytes))
     return false;
-  }
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != bytes.npos && same_word(bytes.substr(first, 5), "solid") &&
          bytes.substr(0, 512).find('\0') == bytes.npos;
@@ -117,10 +119,11 @@ class AsciiStlReader {
     TextCursor ahead = cursor_;
     static_cast<void>(ahead.word());
     if (ahead.at_end()) cursor_.fail_at_end(place());
-    const float value = cursor_.number();
+    const std::size_t axis = mesh_.positions.size() % 3;
+    const float value = mesh_.origin ? mesh_.relative(cursor_.wide_number(), axis) : cursor_.number();
     if (!std::isfinite(value))
       cursor_.fail(fmt::format("{} has a coordinate that is NaN or infinite", place()));
-    mesh_.positions.push_back(value);
+    mesh_.positions.push_back(value + 0.0F);
   }
 
   TextCursor cursor_;
@@ -129,34 +132,49 @@ class AsciiStlReader {
   bool in_facet_ = false;
 };
 
-void read_binary(const std::string& file, std::string_view bytes, MeshFile& mesh) {
+/// The number of triangles in a binary file: what its header says, or where that was never filled in, what
+/// its size has room for. What follows the last is noted.
+std::uint64_t count_triangles(const std::string& file, std::string_view bytes, MeshFile& mesh) {
   if (bytes.size() < kHeaderSize) {
     throw ImportError(ErrorCode::kTruncated, fmt::format("{} ends at byte {} inside its header of {} bytes",
                                                          file, bytes.size(), kHeaderSize));
   }
-  const std::uint64_t triangles = load<std::uint32_t>(bytes.data() + 80, false);
+  std::uint64_t triangles = promised_triangles(bytes);
+  const std::uint64_t held = (bytes.size() - kHeaderSize) / kTriangleSize;
+  if (held > 0 && (triangles == 0 || triangles == 0xffffffffU)) {
+    mesh.notes.push_back(
+        fmt::format("its header says {} triangles, which was never put right: {} follow", triangles, held));
+    triangles = held;
+  }
   const std::uint64_t promised = kHeaderSize + kTriangleSize * triangles;
   if (bytes.size() < promised) {
     throw ImportError(
         ErrorCode::kTruncated,
         fmt::format("{} ends at byte {} inside triangle {}; its header promises {} triangles = {} bytes",
-                    file, bytes.size(), (bytes.size() - kHeaderSize) / kTriangleSize, triangles, promised));
+                    file, bytes.size(), held, triangles, promised));
   }
-  if (bytes.size() > promised) {
-    throw ImportError(ErrorCode::kInvalidInput,
-                      fmt::format("{} has {} bytes after byte {}, where {} triangles end", file,
-                                  bytes.size() - promised, promised, triangles));
+  if (bytes.size() > promised && triangles > 0) {
+    mesh.notes.push_back(
+        fmt::format("{} bytes behind its {} triangles left out", bytes.size() - promised, triangles));
   }
   if (triangles > kMaximumTriangles) {
     throw ImportError(
         ErrorCode::kInvalidInput,
         fmt::format("{}: 32-bit indices cannot name the corners of {} triangles", file, triangles));
   }
+  return triangles;
+}
+
+void read_binary(const std::string& file, std::string_view bytes, MeshFile& mesh) {
+  const std::uint64_t triangles = count_triangles(file, bytes, mesh);
   mesh.positions.reserve(9 * triangles);
   mesh.faces.reserve(triangles);
   for (std::uint64_t triangle = 0; triangle < triangles; ++triangle) {
     const char* corner = bytes.data() + kHeaderSize + kTriangleSize * triangle + kNormalSize;
-    for (std::size_t i = 0; i < 9; ++i) mesh.positions.push_back(load<float>(corner + 4 * i, false));
+    for (std::size_t i = 0; i < 9; ++i) {
+      const float value = load<float>(corner + 4 * i, false);
+      mesh.positions.push_back((mesh.origin ? mesh.relative(double{value}, i % 3) : value) + 0.0F);
+    }
     add_face(mesh);
   }
   const std::size_t bad = find_non_finite(mesh.positions);
@@ -170,13 +188,17 @@ void read_binary(const std::string& file, std::string_view bytes, MeshFile& mesh
 
 void parse_stl(const std::string& file, std::string_view bytes, MeshFile& mesh) {
   mesh.clear();
+  const bool sized_right =
+      bytes.size() >= kHeaderSize && bytes.size() == kHeaderSize + kTriangleSize * promised_triangles(bytes);
+  const bool marked =
+      bytes.starts_with("\xef\xbb\xbf") || bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff");
+  if (marked && !sized_right) bytes = without_byte_order_mark(file, bytes);
   if (is_ascii(bytes)) {
     AsciiStlReader(file, bytes, mesh).read();
   } else {
     read_binary(file, bytes, mesh);
   }
-  if (mesh.faces.empty())
-    throw ImportError(ErrorCode::kInvalidInput, fmt::format("{} has no triangles", file));
+  if (mesh.faces.empty()) throw EmptyInputError(fmt::format("{} has no triangles", file));
 }
 
 }  // namespace tvg::cli

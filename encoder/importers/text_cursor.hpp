@@ -10,19 +10,26 @@
 namespace tvg::cli {
 
 /// Walks the lines and the words of a text in memory. Errors are ImportError and name the file and the line.
-/// A carriage return counts as a blank, so that CR LF ends a line as LF does.
+/// A line ends with LF, CR LF or CR, whatever the lines before it end with.
 class TextCursor {
  public:
   /// `file` is the name for messages. Text and name must outlive the cursor.
   TextCursor(const std::string& file, std::string_view text, std::size_t first_line = 1)
-      : file_(file), next_(text.data()), end_(text.data() + text.size()), line_(first_line) {}
+      : file_(file),
+        begin_(text.data()),
+        next_(text.data()),
+        end_(text.data() + text.size()),
+        line_(first_line) {}
+
+  /// From here on what is wrong with a last line that has no line end is told as a file that is cut there.
+  void expect_whole_lines() { whole_lines_ = true; }
 
   std::size_t line() const { return line_; }
   bool at_end() const { return next_ == end_; }
   /// Whether nothing but blanks is left before the end of the line or of the text; skips these blanks.
   bool at_line_end() {
     skip_blanks();
-    return next_ == end_ || *next_ == '\n';
+    return next_ == end_ || is_line_end(*next_);
   }
   /// Skips blanks of this line.
   void skip_blanks() {
@@ -45,9 +52,11 @@ class TextCursor {
   /// The rest of the line without blanks around it.
   std::string_view rest_of_line();
 
-  /// The next number of this line. Numbers too small for float32 become 0 or denormal; too large ones are
-  /// refused.
-  float number();
+  /// The next number of this line, NaN and infinity among them. Numbers too small for float32 become 0 or
+  /// denormal; too large ones are refused.
+  float number() { return real<float>(); }
+  /// The same in double.
+  double wide_number() { return real<double>(); }
   /// The next whole number of this line, which ends at a blank.
   std::int64_t integer();
   /// As integer(), but what follows the digits is left for the caller.
@@ -61,22 +70,35 @@ class TextCursor {
   /// Throws "FILE ends at line N inside what" (kTruncated).
   [[noreturn]] void fail_at_end(const std::string& inside) const;
 
-  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
-  static bool is_delimiter(char c) { return is_blank(c) || c == '\n'; }
+  static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+  static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+  static bool is_delimiter(char c) { return is_blank(c) || is_line_end(c); }
 
  private:
-  float number_slowly(const char* begin);
+  template <class Real>
+  Real real();
+  template <class Real>
+  Real real_slowly(const char* begin);
+  bool in_cut_line() const;
   [[noreturn]] void fail_number(const char* expected, const char* begin) const;
 
   const std::string& file_;
+  const char* begin_;
   const char* next_;
   const char* end_;
   std::size_t line_;
+  bool whole_lines_ = false;
 };
 
-/// Refuses (ImportError) a text that holds zero bytes, and one whose last line has no line end: it is cut,
-/// and the last number may have lost digits.
-void require_whole_text(const std::string& file, std::string_view text);
+/// The bytes of a text without the byte order mark of UTF-8. Throws ImportError where they are UTF-16.
+std::string_view without_byte_order_mark(const std::string& file, std::string_view bytes);
+
+/// Throws ImportError where a text holds zero bytes.
+void require_text(const std::string& file, std::string_view text);
+
+/// What a note says of a text whose last line has no line end: its last number may have lost digits. Empty
+/// where it has one.
+std::string unended_line_note(std::string_view text);
 
 /// Whether `text` can be shown in a line and kept as metadata: UTF-8 without control characters.
 bool is_plain_text(std::string_view text);

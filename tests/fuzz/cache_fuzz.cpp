@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -39,8 +41,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                         (options & kPipe) != 0 ? MemoryFile::Kind::kPipe : MemoryFile::Kind::kRegular);
   tvg::Mesh mesh;
   mesh.vertex_count = data[1] + 1U;
+  std::vector<std::string> notes;
   try {
-    const auto source = tvg::cli::open_cache(file.path(), mesh, {}, "mesh.obj", (options & kOpenEnded) != 0);
+    const auto source =
+        tvg::cli::open_cache(file.path(), mesh, {}, "mesh.obj", notes, (options & kOpenEnded) != 0);
     if ((options & kSkip) != 0 && !source->skip_frames(source->frame_count().value_or(1) / 2).ok()) return 0;
     read_frames(*source);
     if ((options & kRewind) != 0 && source->rewind()) read_frames(*source);

@@ -69,6 +69,15 @@ void write_mesh_seeds(const fs::path& target) {
       "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty short x\nproperty char y\nproperty uint "
       "z\nelement face 1\nproperty list ushort uint vertex_index\nend_header\n"s +
           std::string(21, '\0') + "\0\3\0\0\0\0\0\0\0\1\0\0\0\2"s);
+  out("ply_fuzz/strips",
+      "ply \r\nformat ascii 1.0\r\nelement vertex 4\r\nproperty float x\r\nproperty float y\r\nproperty "
+      "float z\r\n"
+      "element tristrips 1\r\nproperty list int int vertex_indices\r\nend_header\r\n0 0 0\r\n1 0 0\r\n0 1 "
+      "0\r\n"
+      "1 1 0\r\n8 0 1 2 3 -1 0 1 2");
+  out("obj_fuzz/lenient",
+      "\xef\xbb\xbfv 4000000.01 nan 0\rv 4000000.02 0 0\rv 4000000.03 1 1\rf 2 3\rf 2 3 2\r\nf 2 2 3 3");
+  out("off_fuzz/joined", "OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   out("off_fuzz/written", written(target, "a.off", 1));
   out("off_fuzz/rich",
       "STCNOFF\n# c\n3 1 0\n0 0 0 0 0 1 1 1 1 1 0 0\n1 0 0 0 0 1 1 1 1 1 0 0\n0 1 0 0 0 1 1 1 1 1 0 0\n"
@@ -95,6 +104,9 @@ void write_other_seeds(const fs::path& target) {
     return "\1\x93NUMPY\1\0"s + std::string{118, 0} + header + "\n" + data;
   };
   write_file(target / "weights_fuzz/text", "\0# c\n1\n-2.5e-1\n\n3\n"s);
+  std::string frames = "{'descr': '<f2', 'fortran_order': False, 'shape': (2, 1, 3), }";
+  frames.resize(117, ' ');
+  write_file(target / "npy_fuzz/frames", "\0\x93NUMPY\1\0v\0"s + frames + "\n" + std::string(12, '\1'));
   write_file(target / "weights_fuzz/single", array("<f4", std::string(8, '\0')));
   write_file(target / "weights_fuzz/double", array("<f8", std::string(16, '\0')));
   write_file(target / "skeleton_fuzz/hand",

@@ -1,0 +1,171 @@
+#include "cli/compared_sides.hpp"
+
+#include "tool/mesh_changes.hpp"
+#include "tool/progress.hpp"
+#include "tool/tool_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+namespace tvg::cli {
+
+namespace {
+
+/// Both sides, frame by frame, over changes of the mesh that both have.
+class Comparing {
+ public:
+  Comparing(const ComparedSides& sides, const ComparisonSettings& settings)
+      : sides_(sides),
+        original_(*sides.original),
+        decoded_(*sides.decoded),
+        settings_(settings),
+        bar_("comparing", sides.quiet) {}
+
+  std::vector<Stretch> run() {
+    for (;;) {
+      const std::uint64_t first = frame_;
+      SequenceComparison comparison = begin();
+      const bool more = compare_stretch(comparison);
+      stretches_.push_back({first, comparison.report()});
+      if (!more) return std::move(stretches_);
+    }
+  }
+
+ private:
+  enum class Next { kFrame, kMesh, kEnd };
+
+  SequenceComparison begin() {
+    const std::uint32_t vertices = original_.mesh().vertex_count;
+    if (decoded_.mesh().vertex_count != vertices) {
+      throw ToolError(
+          ExitStatus::kInvalidInput,
+          fmt::format("{} has {} vertices and {} has {}{}: only frames of one mesh can be compared",
+                      sides_.original_name, vertices, sides_.decoded_name, decoded_.mesh().vertex_count,
+                      frame_ > 0 ? fmt::format(" from frame {} on", frame_) : ""));
+    }
+    a_.assign(3 * std::size_t{vertices}, 0);
+    b_ = a_;
+    return SequenceComparison(original_.mesh(), settings_);
+  }
+
+  static Next read(FrameSource& source, FramePositions& frame) {
+    const Result<bool> read = source.read_frame(frame);
+    if (read) return *read ? Next::kFrame : Next::kEnd;
+    auto* changes = dynamic_cast<MeshChanges*>(&source);
+    if (changes != nullptr && changes->go_on_with_next_mesh()) return Next::kMesh;
+    throw tool_error(read.error());
+  }
+
+  /// Compares up to the next mesh (true) or the end.
+  bool compare_stretch(SequenceComparison& comparison) {
+    for (;; ++frame_) {
+      const Next a = read(original_, a_);
+      const Next b = read(decoded_, b_);
+      if (a != b) fail_apart(a, b);
+      if (a != Next::kFrame) return a == Next::kMesh;
+      if (Status status = comparison.add_frame(a_, b_); !status.ok())
+        throw tool_error(sides_.decoded_name, status.error());
+      bar_.update(frame_ + 1, original_.frame_count());
+    }
+  }
+
+  [[noreturn]] void fail_apart(Next a, Next b) const {
+    const std::string& ended = a == Next::kEnd ? sides_.original_name : sides_.decoded_name;
+    const std::string& goes_on = a == Next::kEnd ? sides_.decoded_name : sides_.original_name;
+    if (a == Next::kEnd || b == Next::kEnd) {
+      throw ToolError(ExitStatus::kInvalidInput,
+                      fmt::format("{} ends after {} frames, {} goes on", ended, frame_, goes_on));
+    }
+    throw ToolError(ExitStatus::kInvalidInput,
+                    fmt::format("{} has another mesh from frame {} on, {} has not",
+                                a == Next::kMesh ? sides_.original_name : sides_.decoded_name, frame_,
+                                a == Next::kMesh ? sides_.decoded_name : sides_.original_name));
+  }
+
+  const ComparedSides& sides_;
+  FrameSource& original_;
+  FrameSource& decoded_;
+  const ComparisonSettings settings_;
+  ProgressBar bar_;
+  FramePositions a_;
+  FramePositions b_;
+  std::uint64_t frame_ = 0;
+  std::vector<Stretch> stretches_;
+};
+
+[[noreturn]] void fail_length(const ComparedSides& sides, bool original_ends, std::uint64_t frames) {
+  throw ToolError(ExitStatus::kInvalidInput,
+                  fmt::format("{} ends after {} frames, {} goes on",
+                              original_ends ? sides.original_name : sides.decoded_name, frames,
+                              original_ends ? sides.decoded_name : sides.original_name));
+}
+
+}  // namespace
+
+std::vector<Stretch> compare_vertices(const ComparedSides& sides, const ComparisonSettings& settings) {
+  return Comparing(sides, settings).run();
+}
+
+ComparisonReport together(const std::vector<Stretch>& stretches) {
+  ComparisonReport all = stretches[0].report;
+  if (stretches.size() == 1) return all;
+  double weights = 0;
+  double squares = 0, vertex_squares = 0, means = 0, quadrics = 0;
+  all.frames = 0;
+  all.hausdorff_frames = 0;
+  for (const Stretch& stretch : stretches) {
+    const ComparisonReport& one = stretch.report;
+    if (one.max_vertex_distance > all.max_vertex_distance || &stretch == &stretches[0]) {
+      all.worst_frame = stretch.first_frame + one.worst_frame;
+      all.worst_vertex = one.worst_vertex;
+    }
+    for (const auto figure :
+         {&ComparisonReport::extent, &ComparisonReport::diagonal, &ComparisonReport::max_coordinate_error,
+          &ComparisonReport::max_vertex_distance, &ComparisonReport::relative_max_coordinate_error,
+          &ComparisonReport::relative_max_vertex_distance, &ComparisonReport::relative_rms_coordinate_error,
+          &ComparisonReport::relative_rms_vertex_distance, &ComparisonReport::kg_percent,
+          &ComparisonReport::max_quadric_error, &ComparisonReport::sted, &ComparisonReport::sted_spatial,
+          &ComparisonReport::sted_temporal}) {
+      all.*figure = std::max(all.*figure, one.*figure);
+    }
+    all.snr_db = std::min(all.snr_db, one.snr_db);
+    all.vertices = std::max(all.vertices, one.vertices);
+    all.frames += one.frames;
+    all.hausdorff_frames += one.hausdorff_frames;
+    if (one.hausdorff) all.hausdorff = std::max(all.hausdorff.value_or(0), *one.hausdorff);
+    if (one.relative_hausdorff)
+      all.relative_hausdorff = std::max(all.relative_hausdorff.value_or(0), *one.relative_hausdorff);
+    const double weight = static_cast<double>(one.frames) * static_cast<double>(one.vertices);
+    weights += weight;
+    squares += weight * one.rms_coordinate_error * one.rms_coordinate_error;
+    vertex_squares += weight * one.rms_vertex_distance * one.rms_vertex_distance;
+    means += weight * one.mean_coordinate_error;
+    quadrics += weight * one.mean_quadric_error;
+  }
+  all.rms_coordinate_error = std::sqrt(squares / weights);
+  all.rms_vertex_distance = std::sqrt(vertex_squares / weights);
+  all.mean_coordinate_error = means / weights;
+  all.mean_quadric_error = quadrics / weights;
+  return all;
+}
+
+SurfaceReport compare_surfaces(const ComparedSides& sides, const SurfaceSettings& settings) {
+  SurfaceComparison comparison(sides.original->mesh(), sides.decoded->mesh(), settings);
+  FramePositions a(3 * std::size_t{sides.original->mesh().vertex_count});
+  FramePositions b(3 * std::size_t{sides.decoded->mesh().vertex_count});
+  ProgressBar bar("comparing", sides.quiet);
+  for (std::uint64_t frame = 0;; ++frame) {
+    const Result<bool> more_a = sides.original->read_frame(a), more_b = sides.decoded->read_frame(b);
+    if (!more_a) throw tool_error(more_a.error());
+    if (!more_b) throw tool_error(more_b.error());
+    if (*more_a != *more_b) fail_length(sides, !*more_a, frame);
+    if (!*more_a) return comparison.report();
+    if (Status status = comparison.add_frame(a, b); !status.ok())
+      throw tool_error(sides.decoded_name, status.error());
+    bar.update(frame + 1, sides.original->frame_count());
+  }
+}
+
+}  // namespace tvg::cli
