@@ -164,13 +164,13 @@ void HalfEdgeMesh::remove(const Ring& ring, std::span<const RingTriangle> triang
   for (std::size_t i = 0; i < n; ++i) {
     spokes_.push_back(kernel_.edge_handle(spoke));
     if (i == ring.faces.size()) break;
-    inside_[i * n + (i + 1) % n] = kernel_.next_halfedge_handle(spoke);
+    inside_[i * n + (i + 1 < n ? i + 1 : 0)] = kernel_.next_halfedge_handle(spoke);
     spoke = kernel_.opposite_halfedge_handle(kernel_.prev_halfedge_handle(spoke));
   }
   for (std::size_t i = 0; i < ring.faces.size(); ++i) {
     const VertexHandle vertex = vertex_handle(ring.vertices[i]);
     if (!kernel_.is_boundary(kernel_.halfedge_handle(vertex))) {
-      kernel_.set_halfedge_handle(vertex, inside_[i * n + (i + 1) % n]);
+      kernel_.set_halfedge_handle(vertex, inside_[i * n + (i + 1 < n ? i + 1 : 0)]);
     }
   }
 

@@ -27,15 +27,16 @@ std::vector<SurfacePlace> RemovalHistory::on_original(std::vector<FacePoint> poi
   std::vector<std::vector<std::uint32_t>> inside(faces_.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) inside[points[i].face].push_back(i);
   std::vector<std::uint32_t> moving;
-  for (auto removal = removals_.rbegin(); removal != removals_.rend(); ++removal) {
+  for (std::size_t r = removals_.size(); r-- > 0;) {
+    const Removal& removal = removals_[r];
     moving.clear();
-    for (std::size_t t = 0; t < removal->triangles.size(); ++t) {
-      std::vector<std::uint32_t>& here = inside[removal->faces[t]];
+    for (std::size_t t = 0; t < removal.triangles.size(); ++t) {
+      std::vector<std::uint32_t>& here = inside[removal.faces[t]];
       moving.insert(moving.end(), here.begin(), here.end());
       here.clear();
     }
     for (const std::uint32_t i : moving) {
-      carry_back(*removal, points[i]);
+      carry_back(removal, points[i]);
       inside[points[i].face].push_back(i);
     }
   }

@@ -4,6 +4,7 @@
 
 #include <tvg/decoder.hpp>
 #include <tvg/encoder.hpp>
+#include <tvg/simplify.hpp>
 
 int main() {
   tvg::Sequence sequence;
@@ -12,6 +13,10 @@ int main() {
   tvg::SequenceSource source(sequence);
   tvg::EncodeOptions options;
   options.threads = 2;  // a static library must bring the threads it needs
+
+  tvg::SimplifyOptions coarser;  // and the half-edges that simplification stands on
+  coarser.vertex_counts = {4};
+  if (!tvg::simplify(sequence.mesh, sequence.frames, {}, {}, coarser)) return 1;
 
   std::vector<std::uint8_t> bytes;
   const auto append = [&bytes](std::span<const std::uint8_t> piece) {
