@@ -14,13 +14,14 @@ namespace tvg::cli {
 
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others) {
   command
-      .add_option("input", arguments.inputs,
-                  "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY; - for standard input), or a "
-                  "sequence of "
-                  "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the "
-                  "files, or a scene (glTF 2, FBX, COLLADA, X, "
-                  "MD5, MD2, ...)" +
-                      others)
+      .add_option(
+          "input", arguments.inputs,
+          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY; - for standard input), or a "
+          "sequence of "
+          "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the "
+          "files, or a scene (glTF 2, FBX, COLLADA, X, "
+          "MD5, MD2, ...)" +
+              others)
       ->required();
   command.add_option("--frames", arguments.frames, "frames A-B only, counted from 0");
   command

@@ -47,9 +47,7 @@ FoldCheck::FoldCheck(const MovingPositions& positions, double largest_turn)
       chord_cosine_(cosine_of_degrees(largest_turn / 2)),
       sum_(3 * positions.frame_count()),
       least_along_(positions.frame_count()),
-      has_sum_(positions.frame_count()),
-      star_folds_(positions.frame_count()),
-      folds_(positions.frame_count()) {}
+      has_sum_(positions.frame_count()) {}
 
 void FoldCheck::begin(std::uint32_t center, const Ring& ring) {
   center_ = center;
@@ -133,33 +131,41 @@ bool FoldCheck::allows_face(const RingTriangle& triangle, float* normal) const {
   return bad == 0;
 }
 
-void FoldCheck::count_folds(const float* a, const float* b, double degrees, std::vector<int>& folds) const {
+void FoldCheck::Folds::clear(std::size_t frames) {
+  creased.assign(frames, 0);
+  folded.assign(frames, 0);
+}
+
+void FoldCheck::count_folds(const float* a, const float* b, double margin, Folds& folds) const {
   const std::size_t frames = positions_.frame_count();
-  const auto cosine = static_cast<float>(cosine_of_degrees(degrees));
+  const auto creased = static_cast<float>(cosine_of_degrees(kCreasedDegrees + margin));
+  const auto folded = static_cast<float>(cosine_of_degrees(kFoldedDegrees + margin));
   for (std::size_t f = 0; f < frames; ++f) {
     const float lengths = std::sqrt(dot(a, a, f, frames)) * std::sqrt(dot(b, b, f, frames));
-    folds[f] += dot(a, b, f, frames) < cosine * lengths ? 1 : 0;
+    const float along = dot(a, b, f, frames);
+    folds.creased[f] += along < creased * lengths ? 1 : 0;
+    folds.folded[f] += along < folded * lengths ? 1 : 0;
   }
 }
 
 void FoldCheck::count_star_folds() {
   const std::size_t frames = positions_.frame_count(), n = ring_->size(), faces = ring_->faces.size();
-  std::fill(star_folds_.begin(), star_folds_.end(), 0);
+  star_folds_.clear(frames);
   for (std::size_t i = 0; i < faces; ++i) {
     const float* normal = star_.data() + i * 3 * frames;
     if (ring_->closed || i + 1 < faces)
-      count_folds(normal, star_.data() + (i + 1) % faces * 3 * frames, kFoldedDegrees + kMargin, star_folds_);
+      count_folds(normal, star_.data() + (i + 1) % faces * 3 * frames, kMargin, star_folds_);
     if (ring_->across[i] == kNoVertex) continue;
     float* beyond = across_.data() + i * 3 * frames;
     area_normals(positions_.path(ring_->origins[(i + 1) % n]), positions_.path(ring_->origins[i]),
                  positions_.path(ring_->across[i]), frames, beyond);
-    count_folds(normal, beyond, kFoldedDegrees + kMargin, star_folds_);
+    count_folds(normal, beyond, kMargin, star_folds_);
   }
 }
 
 bool FoldCheck::adds_folds(std::span<const RingTriangle> triangles) {
   const std::size_t frames = positions_.frame_count(), n = ring_->size();
-  std::fill(folds_.begin(), folds_.end(), 0);
+  folds_.clear(frames);
   const auto side = [&](std::size_t t, std::size_t c) {
     return std::pair(triangles[t][c], triangles[t][(c + 1) % 3]);
   };
@@ -169,19 +175,20 @@ bool FoldCheck::adds_folds(std::span<const RingTriangle> triangles) {
       const auto [from, to] = side(t, c);
       if (to == (from + 1) % n && from < ring_->faces.size()) {
         if (ring_->across[from] != kNoVertex)
-          count_folds(normal, across_.data() + from * 3 * frames, kFoldedDegrees - kMargin, folds_);
+          count_folds(normal, across_.data() + from * 3 * frames, -kMargin, folds_);
         continue;
       }
       for (std::size_t other = t + 1; other < triangles.size(); ++other) {
         for (std::size_t d = 0; d < 3; ++d) {
           if (side(other, d) == std::pair(to, from))
-            count_folds(normal, fresh_.data() + other * 3 * frames, kFoldedDegrees - kMargin, folds_);
+            count_folds(normal, fresh_.data() + other * 3 * frames, -kMargin, folds_);
         }
       }
     }
   }
   for (std::size_t f = 0; f < frames; ++f) {
-    if (folds_[f] > star_folds_[f]) return true;
+    if (folds_.folded[f] > star_folds_.folded[f]) return true;
+    if (!creases_allowed_ && folds_.creased[f] > star_folds_.creased[f]) return true;
   }
   return false;
 }

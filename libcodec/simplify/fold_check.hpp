@@ -10,17 +10,21 @@ namespace tvg {
 
 /// A face is none, or will soon be, when it is this much lower than long.
 inline constexpr float kThinnestFace = 1e-3f;
-/// Degrees between the normals of two faces at an edge from which on one lies folded on the other.
-inline constexpr double kFoldedDegrees = 150;
+/// Degrees between the normals of two faces at an edge from which on it is a crease, and from which on one
+/// lies folded on the other.
+inline constexpr double kCreasedDegrees = 150, kFoldedDegrees = 175;
 
 /// Says of a hole, in every frame, whether faces that fill it turn too far away from those that were there.
 class FoldCheck {
  public:
   /// `largest_turn` in degrees: between the normal of a new face and the sum of the areas that go, unless one
   /// of the faces that go was further off in that frame; at a boundary half of it between the new edge and
-  /// each of the two it replaces. No frame may have more folded edges than before.
+  /// each of the two it replaces. No frame may have more folded edges than
+  /// before, nor more creases unless allow_creases().
   FoldCheck(const MovingPositions& positions, double largest_turn);
 
+  /// From now on creases may be sharper than they were, where nothing else is left to remove.
+  void allow_creases() { creases_allowed_ = true; }
   /// Turns to the hole of a vertex. `center` is the original's vertex.
   void begin(std::uint32_t center, const Ring& ring);
   /// [place] angles at the center, and distances from it, both their means over the frames.
@@ -38,8 +42,13 @@ class FoldCheck {
 
   void judge_star();
   void count_star_folds();
-  /// Adds 1 for each frame in which two normals are further apart than so many degrees.
-  void count_folds(const float* a, const float* b, double degrees, std::vector<int>& folds) const;
+  /// Edges at the faces of a hole that are creased and folded, [frame].
+  struct Folds {
+    std::vector<int> creased, folded;
+    void clear(std::size_t frames);
+  };
+  /// Adds 1 for each frame in which two normals are so far apart, give or take so many degrees.
+  void count_folds(const float* a, const float* b, double margin, Folds& folds) const;
   bool allows_face(const RingTriangle& triangle, float* normal) const;
   bool adds_folds(std::span<const RingTriangle> triangles);
 
@@ -54,8 +63,8 @@ class FoldCheck {
   std::vector<std::uint8_t> has_sum_;  ///< [frame] whether the faces that go have an area there
   std::vector<float> across_;          ///< [place][axis][frame] of the faces beyond the ring
   std::vector<float> fresh_;           ///< [triangle][axis][frame] of the faces in question
-  std::vector<int> star_folds_,
-      folds_;  ///< [frame] folded edges at the faces that go, and at those in question
+  Folds star_folds_, folds_;           ///< of the faces that go, and of those in question
+  bool creases_allowed_ = false;
 };
 
 }  // namespace tvg

@@ -12,9 +12,10 @@ namespace {
 /// Vertices of a higher degree are left alone, as the paper has it; where all else is refused, of this one.
 constexpr std::uint32_t kLargestDegree = 12, kLargestRelaxedDegree = 64;
 /// A level that removes less than this share of the vertices has stalled. What follows takes vertices of a
-/// higher degree and those that were refused before, then in the opposite order as well.
+/// higher degree and those that were refused before, then in the opposite order as well, and then lets
+/// creases be made.
 constexpr std::uint32_t kStalledShare = 200;
-constexpr std::uint32_t kAttempts = 3;
+constexpr std::uint32_t kAttempts = 4, kReversed = 2, kCreased = 3;
 constexpr std::uint32_t kProgressStep = 256;
 
 }  // namespace
@@ -76,7 +77,8 @@ Status LevelsOfRemoval::run_level(std::uint32_t target, std::uint32_t attempt) {
   }
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return (*priorities)[a] < (*priorities)[b]; });
-  if (attempt + 1 == kAttempts) std::reverse(order.begin(), order.end());
+  if (attempt == kCreased) remover_.allow_creases();
+  if (attempt == kReversed) std::reverse(order.begin(), order.end());
   if (attempt > 0) std::fill(refused_.begin(), refused_.end(), std::uint8_t{0});
   std::fill(blocked_.begin(), blocked_.end(), std::uint8_t{0});
   remover_.begin_level();

@@ -34,6 +34,8 @@ class VertexRemover {
   std::span<const std::uint32_t> last_ring() const { return ring_.vertices; }
   /// To be called before each level: what is near is found by the size of faces.
   void begin_level();
+  /// Lets creases become sharper than they were from now on, but lets nothing fold.
+  void allow_creases() { folds_.allow_creases(); }
 
  private:
   std::optional<std::vector<RingTriangle>> filling(std::span<const PlanePoint> plane);
