@@ -74,32 +74,30 @@ void add_pairs_plainly(const CoefficientPlanes::PairBlock* pairs, std::span<cons
 namespace {
 
 /// Sums of products of eight vertices: [axis].
-struct WideAccumulator {
-  __m256i sums[3];
+using WideSums = __m256i[3];
 
-  [[gnu::target("avx2")]] WideAccumulator() : sums{} {}
-  [[gnu::target("avx2"), gnu::always_inline]] void add(const CoefficientPlanes::PairBlock& pairs,
-                                                       const RowPair& rows) {
-    const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(pairs.data()));
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const __m256i row = _mm256_set1_epi32(std::bit_cast<std::int32_t>(rows[axis]));
-      sums[axis] = _mm256_add_epi32(sums[axis], _mm256_madd_epi16(values, row));
-    }
+[[gnu::target("avx2"), gnu::always_inline]] inline void add_widely(const CoefficientPlanes::PairBlock& pairs,
+                                                                   const RowPair& rows, WideSums& sums) {
+  const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(pairs.data()));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const __m256i row = _mm256_set1_epi32(std::bit_cast<std::int32_t>(rows[axis]));
+    sums[axis] = _mm256_add_epi32(sums[axis], _mm256_madd_epi16(values, row));
   }
-  [[gnu::target("avx2"), gnu::always_inline]] void store(PairSums& to) const {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      _mm256_storeu_si256(reinterpret_cast<__m256i*>(to[axis].data()), sums[axis]);
-  }
-};
+}
+
+[[gnu::target("avx2"), gnu::always_inline]] inline void store_widely(const WideSums& sums, PairSums& to) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to[axis].data()), sums[axis]);
+}
 
 [[gnu::target("avx2")]] void add_pairs_widely(const CoefficientPlanes::PairBlock* pairs,
                                               std::span<const RowPair> high, std::span<const LowPair> low,
                                               PairSums& upper, PairSums& lower) {
-  WideAccumulator high_sums, low_sums;
-  for (std::size_t pair = 0; pair < high.size(); ++pair) high_sums.add(pairs[pair], high[pair]);
-  for (const LowPair& part : low) low_sums.add(pairs[part.pair], part.rows);
-  high_sums.store(upper);
-  low_sums.store(lower);
+  WideSums high_sums = {}, low_sums = {};
+  for (std::size_t pair = 0; pair < high.size(); ++pair) add_widely(pairs[pair], high[pair], high_sums);
+  for (const LowPair& part : low) add_widely(pairs[part.pair], part.rows, low_sums);
+  store_widely(high_sums, upper);
+  store_widely(low_sums, lower);
 }
 
 }  // namespace
