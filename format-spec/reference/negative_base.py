@@ -51,9 +51,9 @@ def recoded(change):
     """Changes the second frame's stream."""
     return lambda packets: [packets[0], (packets[1][0], change(packets[1][1])), packets[2]]
 
-def gop(number=1, header=None, fields=None, edit=None, choose_index=choose, predictors=(SPACE, ELP), turns=None):
-    """The payload of GOP number: with changed fields of the header, and its packets behind the header edited."""
-    frames, packets = writer.FrameWriter(GATES, FINE, 6, 4, choose_index, turns), []
+def packets_of(frames, predictors):
+    """Packets of frames with these predictors, those that cannot be coded as far as they can, and their digest."""
+    packets = []
     for predictor in predictors:
         try:
             content = frames.write(predictor)
@@ -62,7 +62,11 @@ def gop(number=1, header=None, fields=None, edit=None, choose_index=choose, pred
             frames.coder.finish()
             content = frames.coder.data
         packets.append((32 + predictor, content))
-    packets.append((1, writer.digest([(1, frames.digest())])))
+    return packets + [(1, writer.digest([(1, frames.digest())]))]
+
+def gop(number=1, header=None, fields=None, edit=None, choose_index=choose, predictors=(SPACE, ELP), turns=None):
+    """The payload of GOP number: with changed fields of the header, and its packets behind the header edited."""
+    packets = packets_of(writer.FrameWriter(GATES, FINE, 6, 4, choose_index, turns), predictors)
     fields = ELP_FIELDS | {"predictors": writer.predictors_of(packets)} | (fields or {})
     packets = edit(packets) if edit else packets
     values = {"mesh_id": MESH_ID, "first_frame": 2 * number, "frame_count": 2, "packet_count": len(packets),

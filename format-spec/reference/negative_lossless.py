@@ -1,7 +1,8 @@
 """Negative streams of mode lossless (§4.5.1, §7.9)."""
 import tvg_reference as reference
 import tvg_writer as writer
-from negative_base import FRAMES, MESH_ID, PLAN, PLANES_HEAD, at_meeting, put_gop, put_named, recoded, stream
+from negative_base import (FRAMES, MESH_ID, PLAN, PLANES_HEAD, at_meeting, packets_of, put_gop, put_named, recoded,
+                           stream)
 from negative_pyramid import MESH_ID as SHAPED_ID
 from negative_pyramid import SHAPE, TURNS, of_shape
 from tvg_reference import PYRAMID, SPACE
@@ -11,16 +12,9 @@ def choose(v, axis, rounded, line):
 
 def gop(header=None, fields=None, edit=None, choose_number=choose, predictor=PYRAMID):
     """The payload of a GOP of two frames, as negative_base.gop() makes those of mode elp."""
-    frames, packets = writer.LosslessWriter(TURNS, SHAPE, 0, 0, choose_number), []
-    for _ in range(2):
-        try:
-            content = frames.write(PYRAMID)
-        except reference.Invalid:
-            frames.coder.clear()
-            frames.coder.finish()
-            content = frames.coder.data
-        packets.append((32 + predictor, content))
-    packets.append((1, writer.digest([(1, frames.digest())])))
+    frames = writer.LosslessWriter(TURNS, SHAPE, 0, 0, choose_number)
+    *coded, digest = packets_of(frames, (PYRAMID, PYRAMID))
+    packets = [(32 + predictor, content) for _, content in coded] + [digest]
     packets = edit(packets) if edit else packets
     values = {"mesh_id": SHAPED_ID, "first_frame": 2, "frame_count": 2, "packet_count": len(packets), "mode": 2,
               "fields": writer.lossless_fields(0, 0) if fields is None else fields} | (header or {})

@@ -85,12 +85,9 @@ bool select_vertices(std::uint32_t below, std::span<const std::uint8_t> levels,
 // format-spec §5.6
 Result<CoarseCut> decode_coarse_mesh(const CoarseLayout& layout, std::span<const std::uint8_t> levels,
                                      std::span<const std::uint32_t> order) {
-  constexpr std::size_t kPerVertex = 56, kPerFace = 96, kModels = std::size_t{1} << 18;
-  const std::uint64_t elements = std::uint64_t{layout.vertex_count} + layout.face_count;
-  if (elements <= kMaxElementsPerByte * layout.connectivity.size() &&
-      !can_allocate(kPerVertex * layout.vertex_count + kPerFace * layout.face_count + kModels)) {
+  constexpr std::size_t kPerVertex = 56;
+  if (!can_allocate_connectivity(layout.connectivity, layout.vertex_count, layout.face_count, kPerVertex))
     return out_of_memory();
-  }
   Result<Connectivity> connectivity =
       decode_connectivity(layout.connectivity, layout.vertex_count, layout.face_count);
   if (!connectivity) return connectivity.error();

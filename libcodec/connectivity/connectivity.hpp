@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace tvg {
 
-/// Stands for "no vertex" in a Gate.
+/// Stands for "no vertex".
 inline constexpr std::uint32_t kNoVertex = 0xFFFFFFFF;
 
 /// How prediction reaches a vertex: the ends n and p of the edge it was reached through and the vertex o on
@@ -32,6 +33,13 @@ struct Connectivity {
 
 /// Vertices and faces together that one byte of a connectivity stream may stand for (format-spec §5.1).
 inline constexpr std::uint64_t kMaxElementsPerByte = 128;
+
+/// Whether there is memory for the connectivity and for `bytes_per_vertex` beside it: what the traversal may
+/// hold at once, its lists growing by doubling. Counts that are more than `connectivity` can hold are left to
+/// decode_connectivity(); every other vertex and face has its share of a byte, so that this is in proportion
+/// to the payload.
+bool can_allocate_connectivity(std::span<const std::uint8_t> connectivity, std::uint32_t vertex_count,
+                               std::uint32_t face_count, std::size_t bytes_per_vertex);
 
 /// Decodes the connectivity of a mesh of `vertex_count` vertices and `face_count` faces from all of `bytes`
 /// (format-spec §5.1). Memory and time are in proportion to `bytes`. The only errors are kLimitExceeded, when

@@ -1,3 +1,4 @@
+#include "base/allocation.hpp"
 #include "connectivity/traversal.hpp"
 
 namespace tvg {
@@ -21,6 +22,14 @@ Error connectivity_error(ErrorCode code, const char* message) {
 }
 
 }  // namespace
+
+bool can_allocate_connectivity(std::span<const std::uint8_t> connectivity, std::uint32_t vertex_count,
+                               std::uint32_t face_count, std::size_t bytes_per_vertex) {
+  constexpr std::size_t kPerFace = 96, kModels = std::size_t{1} << 18;
+  const std::uint64_t elements = std::uint64_t{vertex_count} + face_count;
+  return elements > kMaxElementsPerByte * connectivity.size() ||
+         can_allocate(bytes_per_vertex * vertex_count + kPerFace * face_count + kModels);
+}
 
 // format-spec §5.1
 Result<Connectivity> decode_connectivity(std::span<const std::uint8_t> bytes, std::uint32_t vertex_count,

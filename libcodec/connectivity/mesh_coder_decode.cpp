@@ -12,14 +12,9 @@ namespace tvg {
 
 // format-spec §4.3
 Result<CodedMesh> decode_mesh(const MeshLayout& layout, std::uint32_t id) {
-  // What the traversal may hold at once, its lists growing by doubling. Every vertex and face has its share
-  // of a byte, so that this is in proportion to the payload.
-  constexpr std::size_t kPerVertex = 48, kPerFace = 96, kModels = std::size_t{1} << 18;
-  const std::uint64_t elements = std::uint64_t{layout.vertex_count} + layout.face_count;
-  if (elements <= kMaxElementsPerByte * layout.connectivity.size() &&
-      !can_allocate(kPerVertex * layout.vertex_count + kPerFace * layout.face_count + kModels)) {
+  constexpr std::size_t kPerVertex = 48;
+  if (!can_allocate_connectivity(layout.connectivity, layout.vertex_count, layout.face_count, kPerVertex))
     return out_of_memory();
-  }
   Result<Connectivity> connectivity =
       decode_connectivity(layout.connectivity, layout.vertex_count, layout.face_count);
   if (!connectivity) return connectivity.error();

@@ -1,4 +1,5 @@
 #pragma once
+#include "connectivity/connectivity.hpp"
 #include "simplify/cut_mesh.hpp"
 
 #include <OpenMesh/Core/Mesh/PolyConnectivity.hh>
@@ -28,9 +29,6 @@ struct Ring {
 
   std::size_t size() const { return vertices.size(); }
 };
-
-/// Stands for "no vertex".
-inline constexpr std::uint32_t kNoVertex = 0xFFFFFFFF;
 
 /// A cut mesh that loses vertices. Numbers of vertices and faces stay; a face that fills the hole of a vertex
 /// takes the number of one that was there.
