@@ -74,7 +74,7 @@ bool select_vertices(std::uint32_t below, std::span<const std::uint8_t> levels,
     cut.numbers.push_back(static_cast<std::uint32_t>(entry >> 32));
     cut.vertices.push_back(static_cast<std::uint32_t>(entry));
   }
-  for (std::uint64_t i = 0; i < count; ++i) by_number[i] = std::uint64_t{cut.vertices[i]} << 32 | i;
+  for (std::size_t i = 0; i < count; ++i) by_number[i] = std::uint64_t{cut.vertices[i]} << 32 | i;
   std::sort(by_number.begin(), by_number.end());
   for (std::size_t rank = 0; rank < count; ++rank) place[rank] = static_cast<std::uint32_t>(by_number[rank]);
   return true;
