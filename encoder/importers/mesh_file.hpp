@@ -12,17 +12,10 @@
 #include <vector>
 
 #include <tvg/geometry.hpp>
+#include <tvg/properties.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg::cli {
-
-/// A face of more than three corners, which became a fan of triangles around its first corner.
-struct Polygon {
-  std::size_t first_triangle = 0;
-  std::uint32_t corners = 0;
-
-  bool operator==(const Polygon&) const = default;
-};
 
 /// What a mesh file holds. Each index in `faces` is below vertex_count(), each coordinate is finite.
 struct MeshFile {

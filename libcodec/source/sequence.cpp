@@ -4,6 +4,11 @@
 
 namespace tvg {
 
+const MeshProperties& FrameSource::properties() const {
+  static const MeshProperties none;
+  return none;
+}
+
 const Skeleton& FrameSource::skeleton() const {
   static const Skeleton none;
   return none;

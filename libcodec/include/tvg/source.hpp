@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <tvg/properties.hpp>
 #include <tvg/skeleton.hpp>
 #include <tvg/types.hpp>
 
@@ -27,8 +28,15 @@ class FrameSource {
 
   /// The connectivity of every frame; valid as long as the source.
   virtual const Mesh& mesh() const = 0;
+  /// What the mesh has beside its connectivity; valid as long as the mesh.
+  virtual const MeshProperties& properties() const;
+  /// The values of an animated attribute (by its place in properties()) in the frame that was read last,
+  /// [value][component]; valid until the next is read.
+  virtual std::span<const float> animated_values(std::size_t /*attribute*/) const { return {}; }
   /// What the source knows about itself (fps, name, units).
   virtual Metadata metadata() const { return {}; }
+  /// Free-form data that go with the sequence. Valid as long as the source.
+  virtual std::span<const NamedData> data() const { return {}; }
   /// The joints that move the mesh; empty where the source knows of none. Valid as long as the source.
   virtual const Skeleton& skeleton() const;
   /// Where the joints are in the frame that was read last, [joint][xyz]; valid until the next is read.
@@ -38,6 +46,10 @@ class FrameSource {
   /// Reads the next frame into `positions` ([vertex][xyz], exactly 3 * vertex_count floats).
   /// Returns false at the end of the sequence; an error when the input is broken.
   virtual Result<bool> read_frame(std::span<float> positions) = 0;
+  /// After read_frame() gave an error: true where that says no more than that the mesh is another one from
+  /// this frame on. The source then goes on with that mesh, which mesh() is now, and the frame is read next.
+  /// (So that who knows of one mesh only is told.)
+  virtual Result<bool> begin_next_mesh() { return false; }
   /// Passes over `count` frames, which are within the sequence: reads them, where there is no shorter way.
   virtual Status skip_frames(std::uint64_t count);
   /// Goes back to the first frame. Returns false where the input can be read only once (a pipe).
@@ -50,11 +62,17 @@ class SourceDecorator : public FrameSource {
   explicit SourceDecorator(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
 
   const Mesh& mesh() const override { return source_->mesh(); }
+  const MeshProperties& properties() const override { return source_->properties(); }
+  std::span<const float> animated_values(std::size_t attribute) const override {
+    return source_->animated_values(attribute);
+  }
   Metadata metadata() const override { return source_->metadata(); }
+  std::span<const NamedData> data() const override { return source_->data(); }
   const Skeleton& skeleton() const override { return source_->skeleton(); }
   std::span<const float> joint_positions() const override { return source_->joint_positions(); }
   std::optional<std::uint64_t> frame_count() const override { return source_->frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override { return source_->read_frame(positions); }
+  Result<bool> begin_next_mesh() override { return source_->begin_next_mesh(); }
   Status skip_frames(std::uint64_t count) override { return source_->skip_frames(count); }
   bool rewind() override { return source_->rewind(); }
 
