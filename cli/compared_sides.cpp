@@ -1,6 +1,5 @@
 #include "cli/compared_sides.hpp"
 
-#include "tool/mesh_changes.hpp"
 #include "tool/progress.hpp"
 #include "tool/tool_error.hpp"
 
@@ -53,8 +52,9 @@ class Comparing {
   static Next read(FrameSource& source, FramePositions& frame) {
     const Result<bool> read = source.read_frame(frame);
     if (read) return *read ? Next::kFrame : Next::kEnd;
-    auto* changes = dynamic_cast<MeshChanges*>(&source);
-    if (changes != nullptr && changes->go_on_with_next_mesh()) return Next::kMesh;
+    const Result<bool> changed = source.begin_next_mesh();
+    if (!changed) throw tool_error(changed.error());
+    if (*changed) return Next::kMesh;
     throw tool_error(read.error());
   }
 

@@ -209,10 +209,14 @@ void MeshSequenceSource::fail_changed(const std::string& path, const std::string
                   path, frame, difference, first_frame_, frame - 1, frame));
 }
 
-bool MeshSequenceSource::go_on_with_next_mesh() {
+Result<bool> MeshSequenceSource::begin_next_mesh() {
   if (!changed_) return false;
   changed_ = false;
-  begin_stretch();
+  try {
+    begin_stretch();
+  } catch (const ImportError& error) {
+    return error.as_value();
+  }
   return true;
 }
 

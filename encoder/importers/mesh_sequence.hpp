@@ -3,7 +3,6 @@
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/read_notes.hpp"
 #include "encoder/importers/stl_weld.hpp"
-#include "tool/mesh_changes.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -42,7 +41,7 @@ WeldedMesh read_welded_mesh(const std::string& path, const WeldTolerance& tolera
 
 /// Frames of mesh files with one connectivity, that of the first, read one file at a time. Of STL, all files
 /// are read once before, to see what hangs together in every frame.
-class MeshSequenceSource final : public FrameSource, public MeshChanges {
+class MeshSequenceSource final : public FrameSource {
  public:
   /// The first frame has the number `first_frame` in messages. Throws ImportError where the first file cannot
   /// be read.
@@ -55,8 +54,8 @@ class MeshSequenceSource final : public FrameSource, public MeshChanges {
   std::optional<std::uint64_t> frame_count() const override;
   Result<bool> read_frame(std::span<float> positions) override;
   Status skip_frames(std::uint64_t count) override;
+  Result<bool> begin_next_mesh() override;
   bool rewind() override;
-  bool go_on_with_next_mesh() override;
 
   /// On the first file, for the user.
   const std::vector<std::string>& notes() const { return notes_; }

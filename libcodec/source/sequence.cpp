@@ -17,8 +17,14 @@ const Skeleton& FrameSource::skeleton() const {
 Status FrameSource::skip_frames(std::uint64_t count) {
   FramePositions frame(3 * std::size_t{mesh().vertex_count});
   for (; count > 0; --count) {
-    const Result<bool> read = read_frame(frame);
-    if (!read) return read.error();
+    Result<bool> read = read_frame(frame);
+    while (!read) {
+      const Result<bool> changed = begin_next_mesh();
+      if (!changed) return changed.error();
+      if (!*changed) return read.error();
+      frame.resize(3 * std::size_t{mesh().vertex_count});
+      read = read_frame(frame);
+    }
     if (!*read)
       return Error{ErrorCode::kInvalidArgument, "the sequence ends before the frames to be passed over"};
   }

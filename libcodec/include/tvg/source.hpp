@@ -51,8 +51,9 @@ class FrameSource {
   /// (So that who knows of one mesh only is told.)
   virtual Result<bool> begin_next_mesh() { return false; }
   /// Passes over `count` frames, which are within the sequence: reads them, where there is no shorter way.
+  /// mesh() may be another one after it.
   virtual Status skip_frames(std::uint64_t count);
-  /// Goes back to the first frame. Returns false where the input can be read only once (a pipe).
+  /// Goes back to the first frame and its mesh. Returns false where the input can be read only once (a pipe).
   virtual bool rewind() = 0;
 };
 
