@@ -23,6 +23,7 @@ class StreamSource final : public FrameSource {
   std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
   Result<bool> read_frame(std::span<float> positions) override;
   Result<bool> begin_next_mesh() override;
+  bool mesh_may_change() const override { return true; }
   bool rewind() override;
 
  private:
