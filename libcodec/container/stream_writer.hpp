@@ -42,6 +42,8 @@ class StreamWriter {
   Status write_end();
 
   std::uint64_t offset() const { return offset_; }
+  /// Whether the mesh of this id may be named by what is written next.
+  bool mesh_in_force(std::uint32_t id) const { return meshes_.find(id) != nullptr; }
   /// Mesh chunks written.
   std::uint64_t meshes() const { return meshes_.count(); }
 
