@@ -204,7 +204,8 @@ class Encoder::State {
     } else {
       limits_ = limits_for(mesh, *options_);
       report_.vertices = mesh.vertex_count;
-      if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
+      if (Status status = writer_.write_start(limits_, options_->metadata, options_->data); !status.ok())
+        return status;
     }
     frames_before_ = frames_added();
     stretch_ = std::move(stretch);
@@ -365,6 +366,7 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
         static_cast<std::uint32_t>(std::clamp<std::uint64_t>(*frames, 1, frames_at_once(options)));
   }
   options.metadata.merge(source.metadata());
+  add_data(options.data, source.data());
   EncodeProgress with_total;
   if (progress) {
     with_total = [&progress, total = source.frame_count()](

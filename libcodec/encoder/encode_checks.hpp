@@ -32,4 +32,7 @@ Status resolve_max_error(EncodeOptions& options);
 /// What the head of a stream declares whose meshes are at most as large as this one and as the options say.
 StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options);
 
+/// Adds data whose names are not there yet.
+void add_data(std::vector<NamedData>& data, std::span<const NamedData> more);
+
 }  // namespace tvg
