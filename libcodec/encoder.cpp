@@ -226,7 +226,8 @@ class Encoder::State {
     } else {
       limits_ = limits_for(mesh, *options_, property_bytes_of(stretch->properties, mesh));
       report_.vertices = mesh.vertex_count;
-      if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
+      if (Status status = writer_.write_start(limits_, options_->metadata, options_->data); !status.ok())
+        return status;
     }
     frames_before_ = frames_added();
     stretch_ = std::move(stretch);

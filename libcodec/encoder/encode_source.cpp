@@ -58,6 +58,7 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
         static_cast<std::uint32_t>(std::clamp<std::uint64_t>(*frames, 1, frames_at_once(options)));
   }
   options.metadata.merge(source.metadata());
+  add_data(options.data, source.data());
   EncodeProgress with_total;
   if (progress) {
     with_total = [&progress, total = source.frame_count()](

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <tvg/geometry.hpp>
 #include <tvg/levels.hpp>
@@ -65,6 +66,9 @@ struct EncodeOptions {
   std::uint64_t first_frame = 0;  ///< number of the source's first frame in a longer sequence it was cut from
   unsigned threads = 1;           ///< GOPs encoded at the same time; the bytes do not depend on it
   Metadata metadata;              ///< encode() adds what the source says
+  /// Free-form data, whose names are unique and whose bytes are at most kMaxDataBytes each; compressed where
+  /// that is smaller. encode() adds those of the source that have other names.
+  std::vector<NamedData> data;
 
   /// What all frames lie in: every GOP then has the same lattice. Absent: each GOP has a box of its own, but
   /// encode() looks for that of the whole source where it can be read twice and no step is given.
