@@ -88,6 +88,9 @@ class PolygonCoder {
         return true;
       }
       add(next, side);
+      if constexpr (Coder::kDecoding) {
+        if (coder.overrun()) return false;
+      }
     }
   }
 
