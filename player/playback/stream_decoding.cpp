@@ -189,6 +189,7 @@ void StreamLoader::advance() {
       fail(decoder_->error());
       break;
     case Decoder::Event::kChunk:
+    case Decoder::Event::kData:
       break;
   }
 }
