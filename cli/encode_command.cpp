@@ -186,6 +186,11 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
                "note: each frame has a mesh of its own, so the vertex order is given up and frames are coded "
                "by themselves (--keep-order keeps it)\n");
   }
+  if (report.polygons_left_out > 0) {
+    fmt::print(stderr,
+               "note: {} polygons come back as triangles: they are no fans of triangles side by side\n",
+               report.polygons_left_out);
+  }
   fmt::print(
       stderr, "{}: {} frames of {} in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
       arguments.output == "-" ? "standard output" : arguments.output, report.frames,

@@ -263,6 +263,7 @@ class Encoder::State {
     const std::vector<std::uint8_t> payload = std::move(stretch_->encoded.payload);
     if (payload.size() > limits_.mesh_bytes)
       return Error{ErrorCode::kLimitExceeded, "the mesh is coded in more bytes than the head declares"};
+    report_.polygons_left_out += stretch_->encoded.polygons_left_out;
     mesh_written_ = true;
     known_.push_back(stretch_);
     if (known_.size() > limits_.meshes) known_.pop_front();

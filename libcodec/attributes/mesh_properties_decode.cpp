@@ -1,6 +1,7 @@
 #include "attributes/attributes.hpp"
 #include "attributes/mesh_properties.hpp"
 #include "attributes/parts.hpp"
+#include "attributes/polygons.hpp"
 
 #include <utility>
 
@@ -22,6 +23,12 @@ Result<MeshProperties> decode_properties(const MeshLayout& layout, CodedMesh& co
         decode_attributes(layout.attributes, mesh, properties.parts.size(), budget);
     if (!attributes) return attributes.error();
     properties.attributes = std::move(*attributes);
+  }
+  if (!layout.polygons.empty()) {
+    Result<FaceFans> fans = decode_polygons(layout.polygons, mesh, budget);
+    if (!fans) return fans.error();
+    if (Status status = take_fans(std::move(*fans), coded.mesh.faces, properties); !status.ok())
+      return status.error();
   }
   return properties;
 }

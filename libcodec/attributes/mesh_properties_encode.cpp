@@ -2,6 +2,9 @@
 
 #include "attributes/attributes_encode.hpp"
 #include "attributes/parts_encode.hpp"
+#include "attributes/polygons_encode.hpp"
+
+#include <utility>
 
 namespace tvg {
 
@@ -9,6 +12,10 @@ void encode_properties(const MeshProperties& properties, const ReferenceShape* s
   const PropertyMesh coded{mesh.faces, mesh.coded.order, shape};
   mesh.parts = encode_parts(properties, coded, mesh.first_corners);
   mesh.attributes = encode_attributes(properties.attributes, coded, mesh.first_corners);
+  EncodedPolygons polygons =
+      encode_polygons(properties.polygons, mesh.coded.mesh.faces, coded, mesh.first_corners);
+  mesh.polygons = std::move(polygons.section);
+  mesh.polygons_left_out = polygons.left_out;
 }
 
 }  // namespace tvg

@@ -16,6 +16,7 @@ struct EncodedMesh {
   std::vector<std::uint8_t> connectivity, order;
   std::vector<std::uint8_t> levels, lods;                 ///< empty where there are none
   std::vector<std::uint8_t> parts, attributes, polygons;  ///< likewise
+  std::uint64_t polygons_left_out = 0;                    ///< that could not be said to be polygons
   CodedMesh coded;                                        ///< not named yet: the payload names it
   std::vector<Face> faces;                   ///< in traversal indices and order, as the decoder meets them
   std::vector<std::uint32_t> first_corners;  ///< of these, as in EncodedConnectivity

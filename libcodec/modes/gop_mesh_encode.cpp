@@ -47,6 +47,7 @@ EncodedGopMesh finish_mesh(EncodedMesh encoded, const MeshProperties& properties
   encode_properties(properties, nullptr, encoded);
   EncodedGopMesh result;
   result.payload = mesh_payload(encoded);
+  result.polygons_left_out = encoded.polygons_left_out;
   result.mesh.coded = std::move(encoded.coded);
   return result;
 }
@@ -65,6 +66,7 @@ Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> f
   encode_properties(properties, &shape, encoded);
   EncodedGopMesh result;
   result.payload = mesh_payload(encoded, encode_reference_shape(shape, *faces));
+  result.polygons_left_out = encoded.polygons_left_out;
   result.mesh.coded = std::move(encoded.coded);
   result.mesh.pyramid = std::move(*pyramid);
   result.mesh.shape = std::move(shape);

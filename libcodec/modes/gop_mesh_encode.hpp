@@ -12,6 +12,7 @@ namespace tvg {
 struct EncodedGopMesh {
   GopMesh mesh;
   std::vector<std::uint8_t> payload;
+  std::uint64_t polygons_left_out = 0;
 };
 
 /// Without a reference shape. `properties` are those of the mesh, their bits settled.

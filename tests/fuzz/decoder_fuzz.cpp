@@ -48,6 +48,7 @@ class Player {
     for (const tvg::Face& face : mesh.faces) {
       for (const std::uint32_t v : face) require(v < mesh.vertex_count);
     }
+    check_properties(mesh, decoder_.properties());
     indices_.resize(3 * std::size_t{mesh.vertex_count});
     flags_.resize(mesh.vertex_count);
     positions_.resize(stride_ * mesh.vertex_count);
@@ -71,6 +72,22 @@ class Player {
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       const int bits = flags_[i / 3] != 0 ? gop.fine_bits : gop.coarse_bits;
       require(indices_[i] >= 0 && indices_[i] < (std::int32_t{1} << bits));
+    }
+  }
+
+  static void check_properties(const tvg::Mesh& mesh, const tvg::MeshProperties& properties) {
+    require(properties.face_parts.size() == (properties.parts.empty() ? 0 : mesh.faces.size()));
+    for (const std::uint32_t part : properties.face_parts) require(part < properties.parts.size());
+    std::size_t end = 0;
+    for (const tvg::Polygon& polygon : properties.polygons) {
+      require(polygon.first_triangle >= end && polygon.corners > 3);
+      end = polygon.first_triangle + polygon.corners - 2;
+      require(end <= mesh.faces.size());
+      for (std::size_t f = polygon.first_triangle + 1; f < end; ++f)
+        require(mesh.faces[f][0] == mesh.faces[f - 1][0] && mesh.faces[f][1] == mesh.faces[f - 1][2]);
+    }
+    for (const tvg::Attribute& attribute : properties.attributes) {
+      for (const std::uint32_t value : attribute.corners) require(value < attribute.value_count());
     }
   }
 

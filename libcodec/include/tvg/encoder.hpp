@@ -93,6 +93,9 @@ struct EncodeReport {
   std::uint64_t bytes = 0;          ///< of the whole stream
   /// In mode basis: the largest error of a coordinate, in the mesh's units; 0 in others.
   double largest_error = 0;
+  /// Polygons, of all meshes written, that come back as their triangles: those are no fan around the first
+  /// corner, or are not next to each other where other faces share their edges.
+  std::uint64_t polygons_left_out = 0;
   bool box_of_each_gop = false;  ///< neither box nor step was given, so each GOP has cells of its own
 };
 
