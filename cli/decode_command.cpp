@@ -103,7 +103,7 @@ class DecodeJob {
     if (wanted_) frames = wanted_->last - wanted_->first + 1;
     output_frames_ = frames;
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-    sink_->begin_mesh(decoder.mesh(), decoder.metadata(), frames);
+    sink_->begin_mesh(decoder.mesh(), {}, decoder.metadata(), frames);
     if (wanted_ && index_ && wanted_->first > 0) reader_.seek(wanted_->first);
   }
 
@@ -122,7 +122,7 @@ class DecodeJob {
     if (!std::exchange(pending_mesh_, false)) return positions_;
     const Decoder& decoder = reader_.decoder();
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-    sink_->begin_mesh(decoder.mesh(), decoder.metadata(), output_frames_);
+    sink_->begin_mesh(decoder.mesh(), {}, decoder.metadata(), output_frames_);
     return positions_;
   }
 
@@ -163,7 +163,7 @@ class DecodeJob {
         return;
       }
       if (std::exchange(told_mesh, gop->mesh_offset) != gop->mesh_offset)
-        sink_->begin_mesh(*gop->mesh, reader_.decoder().metadata(), output_frames_);
+        sink_->begin_mesh(*gop->mesh, {}, reader_.decoder().metadata(), output_frames_);
       for (std::size_t i = 0; i < gop->frames.size() && !done_; ++i) {
         positions_.swap(gop->frames[i]);
         take_frame(gop->first_frame + i);
