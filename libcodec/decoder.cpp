@@ -282,6 +282,9 @@ const Mesh& Decoder::mesh() const {
 const MeshInfo& Decoder::mesh_info() const {
   return state_->mesh->coded.info;
 }
+const MeshProperties& Decoder::properties() const {
+  return state_->mesh->properties;
+}
 std::uint32_t Decoder::lod_count() const {
   return static_cast<std::uint32_t>(mesh_info().lods.size());
 }

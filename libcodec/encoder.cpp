@@ -4,6 +4,7 @@
 #include "encoder/effort.hpp"
 #include "encoder/encode_checks.hpp"
 #include "encoder/gop_queue.hpp"
+#include "encoder/property_checks.hpp"
 #include "modes/gop_encoder.hpp"
 #include "modes/gop_mesh_encode.hpp"
 #include "quantization/lattice_over_encode.hpp"
@@ -23,10 +24,12 @@ namespace {
 
 /// What the GOPs of one mesh share, until the last of them is encoded.
 struct Stretch {
-  Stretch(Mesh given, Skeleton joints, std::shared_ptr<const EncodeOptions> encode_options)
+  Stretch(Mesh given, Skeleton joints, MeshProperties beside,
+          std::shared_ptr<const EncodeOptions> encode_options)
       : options(std::move(encode_options)),
         mesh(std::move(given)),
         skeleton(std::move(joints)),
+        properties(std::move(beside)),
         measurer(mesh, skeleton, options->importance) {}
   Stretch(const Stretch&) = delete;
   Stretch& operator=(const Stretch&) = delete;
@@ -34,6 +37,7 @@ struct Stretch {
   std::shared_ptr<const EncodeOptions> options;
   Mesh mesh;
   Skeleton skeleton;
+  MeshProperties properties;
   EncodedGopMesh encoded;  ///< once the mesh is written
   Measurer measurer;
 };
@@ -95,9 +99,9 @@ class Encoder::State {
     report_.box_of_each_gop = needs_box(*options_) && !options_->box && !options_->step;
   }
 
-  Status set_mesh(const Mesh& mesh, const Skeleton& skeleton) {
-    if (Status status = check_new_mesh(mesh, skeleton); !status.ok()) return status;
-    return lasting([&] { return begin_stretch(mesh, skeleton); });
+  Status set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties) {
+    if (Status status = check_new_mesh(mesh, skeleton, properties); !status.ok()) return status;
+    return lasting([&] { return begin_stretch(mesh, skeleton, properties); });
   }
 
   Status add_frame(std::span<const float> positions, std::span<const float> joints) {
@@ -141,7 +145,7 @@ class Encoder::State {
     return {};
   }
 
-  Status check_new_mesh(const Mesh& mesh, const Skeleton& skeleton) const {
+  Status check_new_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties) const {
     if (Status status = check_open(); !status.ok()) return status;
     if (stretch_ && cutter_->frames() == 0)
       return Error{ErrorCode::kWrongState, "the mesh before this one has no frames"};
@@ -156,6 +160,14 @@ class Encoder::State {
                    "the mesh has " + std::to_string(mesh.vertex_count) + " vertices and " +
                        std::to_string(mesh.faces.size()) + " faces, the head declares " +
                        std::to_string(limits_.vertices) + " and " + std::to_string(limits_.faces)};
+    }
+    if (Status status = check_properties(properties, mesh, options_->attribute_bits); !status.ok())
+      return status;
+    if (stretch_ && property_bytes_of(properties, mesh) > limits_.property_bytes) {
+      return Error{ErrorCode::kLimitExceeded, "what the mesh has beside its connectivity takes " +
+                                                  std::to_string(property_bytes_of(properties, mesh)) +
+                                                  " bytes, the head declares " +
+                                                  std::to_string(limits_.property_bytes)};
     }
     return check_importance(options_->importance, mesh, skeleton);
   }
@@ -197,12 +209,13 @@ class Encoder::State {
 
   std::uint64_t frames_added() const { return frames_before_ + (cutter_ ? cutter_->frames() : 0); }
 
-  Status begin_stretch(const Mesh& mesh, const Skeleton& skeleton) {
-    auto stretch = std::make_shared<Stretch>(mesh, skeleton, options_);
+  Status begin_stretch(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties) {
+    auto stretch = std::make_shared<Stretch>(
+        mesh, skeleton, with_settled_bits(properties, options_->attribute_bits), options_);
     if (stretch_) {
       if (Status status = flush(); !status.ok()) return status;
     } else {
-      limits_ = limits_for(mesh, *options_);
+      limits_ = limits_for(mesh, *options_, property_bytes_of(properties, mesh));
       report_.vertices = mesh.vertex_count;
       if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
     }
@@ -220,11 +233,11 @@ class Encoder::State {
     if (needs_shape(*options_)) {
       Result<EncodedGopMesh> encoded =
           finish_mesh(std::move(connectivity), first_frame, shape_cell(*options_, first_frame),
-                      effort_of(options_->effort).neighbours);
+                      effort_of(options_->effort).neighbours, stretch_->properties);
       if (!encoded) return encoded.error();
       stretch_->encoded = std::move(*encoded);
     } else {
-      stretch_->encoded = finish_mesh(std::move(connectivity));
+      stretch_->encoded = finish_mesh(std::move(connectivity), stretch_->properties);
     }
     const std::vector<std::uint8_t> payload = std::move(stretch_->encoded.payload);
     if (payload.size() > limits_.mesh_bytes)
@@ -319,8 +332,8 @@ Encoder::Encoder(Encoder&&) noexcept = default;
 Encoder& Encoder::operator=(Encoder&&) noexcept = default;
 Encoder::~Encoder() = default;
 
-Status Encoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton) {
-  return state_->set_mesh(mesh, skeleton);
+Status Encoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties) {
+  return state_->set_mesh(mesh, skeleton, properties);
 }
 
 Status Encoder::add_frame(std::span<const float> positions, std::span<const float> joints) {
@@ -371,7 +384,8 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
                      std::uint64_t frames, std::optional<std::uint64_t>) { progress(frames, total); };
   }
   Encoder encoder(std::move(options), sink, std::move(with_total));
-  if (Status status = encoder.set_mesh(source.mesh(), source.skeleton()); !status.ok()) return status.error();
+  if (Status status = encoder.set_mesh(source.mesh(), source.skeleton(), source.properties()); !status.ok())
+    return status.error();
   FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
   for (;;) {
     const Result<bool> read = source.read_frame(frame);
@@ -388,6 +402,9 @@ Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, c
                             const EncodeProgress& progress) {
   if (Status status = check_options(options); !status.ok()) return status.error();
   if (Status status = check_mesh(source.mesh()); !status.ok()) return status.error();
+  if (Status status = check_properties(source.properties(), source.mesh(), options.attribute_bits);
+      !status.ok())
+    return status.error();
   if (Status status = check_importance(options.importance, source.mesh(), source.skeleton()); !status.ok())
     return status.error();
   try {

@@ -116,7 +116,8 @@ tvg_code tvg_limits_init(tvg_limits* limits) {
   const tvg::DecoderLimits defaults;
   return give<tvg_limits>({sizeof(tvg_limits), defaults.vertices, defaults.faces, defaults.frames_per_gop,
                            defaults.packet_bytes, defaults.memory, defaults.meshes, defaults.mesh_bytes,
-                           defaults.plan_bytes, defaults.components, defaults.plans},
+                           defaults.plan_bytes, defaults.components, defaults.plans,
+                           defaults.property_bytes},
                           limits);
 }
 
@@ -131,7 +132,8 @@ tvg_decoder* tvg_decoder_create(const tvg_limits* limits) {
   try {
     return new tvg_decoder(tvg::DecoderLimits{
         known.vertices, known.faces, known.frames_per_gop, known.packet_bytes, known.meshes, known.mesh_bytes,
-        known.memory_bytes, known.plan_bytes, known.components, known.plans});
+        known.memory_bytes, known.plan_bytes, known.components, known.plans,
+        known.property_bytes});
   } catch (const std::exception&) {
     return nullptr;
   }

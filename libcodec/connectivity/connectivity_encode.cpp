@@ -15,6 +15,7 @@ class MeshGuide {
         visited_(mesh.faces.size(), false),
         index_(mesh.vertex_count, kNoVertex) {
     order_.reserve(mesh.vertex_count);
+    first_corners_.reserve(mesh.faces.size());
   }
 
   void attach(const Border& border) { border_ = &border; }
@@ -23,7 +24,7 @@ class MeshGuide {
     if (corner == 0) {
       while (visited_[next_root_]) ++next_root_;
       visited_[next_root_] = true;
-      current_ = 3 * next_root_;
+      enter(3 * next_root_);
     }
     return step_to(mesh_.faces[current_ / 3][corner]);
   }
@@ -32,7 +33,7 @@ class MeshGuide {
     const std::uint32_t partner = partner_[half_edge_[edge]];
     if (partner == kNoHalfEdge || visited_[partner / 3]) return {Operation::kBoundary, 0};
     visited_[partner / 3] = true;
-    current_ = partner;
+    enter(partner);
     const BorderEdge& gate = border_->edge(edge);
     const bool previous =
         border_->meets_previous(edge) && half_edge_[gate.previous] == partner_[following(1)];
@@ -61,8 +62,16 @@ class MeshGuide {
     return std::move(order_);
   }
 
+  /// [traversal face]: the half-edge through which it was entered.
+  std::vector<std::uint32_t> take_first_corners() { return std::move(first_corners_); }
+
  private:
   std::uint32_t following(std::uint32_t side) const { return current_ / 3 * 3 + (current_ % 3 + side) % 3; }
+
+  void enter(std::uint32_t half_edge) {
+    current_ = half_edge;
+    first_corners_.push_back(half_edge);
+  }
 
   Step step_to(std::uint32_t vertex) {
     pending_ = vertex;
@@ -77,8 +86,9 @@ class MeshGuide {
   std::vector<std::uint32_t> index_;      ///< [vertex in the mesh] = traversal index
   std::vector<std::uint32_t> order_;      ///< [traversal index]
   std::vector<std::uint32_t> half_edge_;  ///< [border edge]
-  std::uint32_t current_ = 0;             ///< the half-edge through which the current face was entered
-  std::uint32_t pending_ = 0;             ///< the vertex that is numbered if it is new
+  std::vector<std::uint32_t> first_corners_;
+  std::uint32_t current_ = 0;  ///< the half-edge through which the current face was entered
+  std::uint32_t pending_ = 0;  ///< the vertex that is numbered if it is new
   std::uint32_t next_root_ = 0;
 };
 
@@ -92,6 +102,7 @@ EncodedConnectivity encode_connectivity(const Mesh& mesh) {
                       result.connectivity);
   traversal.run();
   result.order = guide.take_order();
+  result.first_corners = guide.take_first_corners();
 
   const std::uint64_t elements = std::uint64_t{mesh.vertex_count} + mesh.faces.size();
   RangeEncoder padded = coder;

@@ -39,6 +39,8 @@ EncodedMesh encode_mesh(const Mesh& mesh, bool keep_order, const MeshLevels* lev
   result.coded.mesh = mesh;
   result.coded.gates = std::move(encoded.connectivity.gates);
   result.coded.order = std::move(encoded.order);
+  result.faces = std::move(encoded.connectivity.faces);
+  result.first_corners = std::move(encoded.first_corners);
   result.coded.info = {encoded.bytes.size(), result.order.size(), 0, keep_order};
   result.connectivity = std::move(encoded.bytes);
   if (levels != nullptr) add_levels(result, *levels);
@@ -47,9 +49,10 @@ EncodedMesh encode_mesh(const Mesh& mesh, bool keep_order, const MeshLevels* lev
 
 std::vector<std::uint8_t> mesh_payload(EncodedMesh& mesh, std::span<const std::uint8_t> shape) {
   mesh.coded.info.shape_bytes = shape.size();
-  std::vector<std::uint8_t> payload = write_mesh(
-      {mesh.coded.mesh.vertex_count, static_cast<std::uint32_t>(mesh.coded.mesh.faces.size()),
-       mesh.coded.info.keeps_vertex_order, mesh.connectivity, mesh.order, shape, mesh.levels, mesh.lods});
+  std::vector<std::uint8_t> payload =
+      write_mesh({mesh.coded.mesh.vertex_count, static_cast<std::uint32_t>(mesh.coded.mesh.faces.size()),
+                  mesh.coded.info.keeps_vertex_order, mesh.connectivity, mesh.order, shape, mesh.levels,
+                  mesh.lods, mesh.parts, mesh.attributes, mesh.polygons});
   mesh.coded.id = checksum(payload);
   return payload;
 }

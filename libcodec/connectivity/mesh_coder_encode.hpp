@@ -14,8 +14,11 @@ namespace tvg {
 /// false: the decoder then gives them in traversal order.
 struct EncodedMesh {
   std::vector<std::uint8_t> connectivity, order;
-  std::vector<std::uint8_t> levels, lods;  ///< empty where there are none
-  CodedMesh coded;                         ///< not named yet: the payload names it
+  std::vector<std::uint8_t> levels, lods;                 ///< empty where there are none
+  std::vector<std::uint8_t> parts, attributes, polygons;  ///< likewise
+  CodedMesh coded;                                        ///< not named yet: the payload names it
+  std::vector<Face> faces;                   ///< in traversal indices and order, as the decoder meets them
+  std::vector<std::uint32_t> first_corners;  ///< of these, as in EncodedConnectivity
 };
 
 /// `levels` fit the mesh; null where there are none.

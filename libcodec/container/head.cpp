@@ -24,6 +24,7 @@ enum Key : std::uint64_t {
   kPlanBytes = 15,
   kComponents = 17,
   kPlans = 19,
+  kPropertyBytes = 21,  // which a head may lack
 };
 constexpr std::array kKeys = {kVertices,      kFaces,  kFramesPerGop, kPacketBytes,
                               kDecoderMemory, kMeshes, kMeshBytes};
@@ -50,6 +51,8 @@ std::uint32_t* bound_of(StreamLimits& limits, std::uint64_t key) {
       return &limits.components;
     case kPlans:
       return &limits.plans;
+    case kPropertyBytes:
+      return &limits.property_bytes;
     default:
       return nullptr;
   }
@@ -92,11 +95,12 @@ std::vector<std::uint8_t> write_head(const StreamLimits& limits) {
     head.varint(key);
     head.varint(key == kDecoderMemory ? bounds.decoder_memory : *bound_of(bounds, key));
   }
-  if (bounds.plan_bytes == 0) return head.take();
-  for (const Key key : kKeysOfPlanes) {
+  const auto write = [&](Key key) {
     head.varint(key);
     head.varint(*bound_of(bounds, key));
-  }
+  };
+  if (bounds.plan_bytes > 0) std::for_each(kKeysOfPlanes.begin(), kKeysOfPlanes.end(), write);
+  if (bounds.property_bytes > 0) write(kPropertyBytes);
   return head.take();
 }
 
@@ -163,6 +167,7 @@ Status check_declared(const StreamLimits& declared, const DecoderLimits& allowed
       {"bytes per chunk of planes", &StreamLimits::plan_bytes, &DecoderLimits::plan_bytes},
       {"components", &StreamLimits::components, &DecoderLimits::components},
       {"chunks of planes in force", &StreamLimits::plans, &DecoderLimits::plans},
+      {"bytes of properties", &StreamLimits::property_bytes, &DecoderLimits::property_bytes},
   };
   const auto above = [](const char* what, std::uint64_t asked, std::uint64_t most) {
     if (!can_allocate(kSmallThings)) return out_of_memory();
@@ -204,6 +209,7 @@ StreamLimits larger_limits(const StreamLimits& a, const StreamLimits& b) {
   limits.plan_bytes = std::max(a.plan_bytes, b.plan_bytes);
   limits.components = std::max(a.components, b.components);
   limits.plans = std::max(a.plans, b.plans);
+  limits.property_bytes = std::max(a.property_bytes, b.property_bytes);
   const bool shapes = has_room_for_shapes(a) || has_room_for_shapes(b);
   const bool lods = has_room_for_lods(a) || has_room_for_lods(b);
   const std::uint64_t needed =

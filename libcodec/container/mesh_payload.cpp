@@ -12,8 +12,11 @@ namespace {
 
 // Kinds of sections.
 constexpr std::uint64_t kConnectivity = 1;
+constexpr std::uint64_t kParts = 2;
 constexpr std::uint64_t kVertexOrder = 3;
+constexpr std::uint64_t kAttributes = 4;
 constexpr std::uint64_t kReferenceShape = 5;
+constexpr std::uint64_t kPolygons = 6;
 constexpr std::uint64_t kLevels = 7;
 constexpr std::uint64_t kLods = 9;
 
@@ -30,8 +33,11 @@ std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh) {
   writer.varint(mesh.vertex_count);
   writer.varint(mesh.face_count);
   write_section(writer, kConnectivity, mesh.connectivity);
+  if (!mesh.parts.empty()) write_section(writer, kParts, mesh.parts);
   if (mesh.keeps_order) write_section(writer, kVertexOrder, mesh.order);
+  if (!mesh.attributes.empty()) write_section(writer, kAttributes, mesh.attributes);
   if (!mesh.shape.empty()) write_section(writer, kReferenceShape, mesh.shape);
+  if (!mesh.polygons.empty()) write_section(writer, kPolygons, mesh.polygons);
   if (!mesh.levels.empty()) write_section(writer, kLevels, mesh.levels);
   if (!mesh.lods.empty()) write_section(writer, kLods, mesh.lods);
   return writer.take();
@@ -58,9 +64,18 @@ Fault parse(ByteReader reader, MeshLayout& mesh) {
     if (kind == kConnectivity) {
       has_connectivity = true;
       mesh.connectivity = content;
+    } else if (kind == kParts) {
+      if (content.empty()) return {"§5.8", "the parts of the mesh are empty"};
+      mesh.parts = content;
     } else if (kind == kVertexOrder) {
       mesh.keeps_order = true;
       mesh.order = content;
+    } else if (kind == kAttributes) {
+      if (content.empty()) return {"§5.7", "the attributes of the mesh are empty"};
+      mesh.attributes = content;
+    } else if (kind == kPolygons) {
+      if (content.empty()) return {"§5.9", "the polygons of the mesh are empty"};
+      mesh.polygons = content;
     } else if (kind == kReferenceShape) {
       if (content.empty()) return {"§5.3", "the reference shape of the mesh is empty"};
       mesh.shape = content;
@@ -91,6 +106,7 @@ std::uint32_t most_mesh_bytes(const StreamLimits& limits, bool with_shape, std::
   std::uint64_t bytes =
       64 + 16 * (1 + coarse_meshes) * (std::uint64_t{limits.vertices} + limits.faces) + 64 * coarse_meshes;
   if (with_shape) bytes += 64 + 24 * std::uint64_t{limits.vertices};
+  bytes += 2 * std::uint64_t{limits.property_bytes};
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(bytes, kMaxChunkLength));
 }
 

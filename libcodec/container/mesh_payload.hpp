@@ -13,9 +13,12 @@ struct MeshLayout {
   std::uint32_t vertex_count, face_count;
   bool keeps_order;  ///< there is a section with the vertex order; otherwise it was given up
   Bytes connectivity, order;
-  Bytes shape = {};   ///< the reference shape; empty where there is none
-  Bytes levels = {};  ///< of the vertices; empty where there are none
-  Bytes lods = {};    ///< the coarser meshes; empty where there are none
+  Bytes shape = {};       ///< the reference shape; empty where there is none
+  Bytes levels = {};      ///< of the vertices; empty where there are none
+  Bytes lods = {};        ///< the coarser meshes; empty where there are none
+  Bytes parts = {};       ///< which part each face is of; empty where there are none
+  Bytes attributes = {};  ///< empty where there are none
+  Bytes polygons = {};    ///< empty where all faces are triangles
 };
 std::vector<std::uint8_t> write_mesh(const MeshLayout& mesh);
 /// kUnsupported where there is a section that this version does not know and must.

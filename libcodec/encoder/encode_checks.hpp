@@ -29,7 +29,8 @@ std::uint32_t frames_at_once(const EncodeOptions& options);
 /// left.
 Status resolve_max_error(EncodeOptions& options);
 
-/// What the head of a stream declares whose meshes are at most as large as this one and as the options say.
-StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options);
+/// What the head of a stream declares whose meshes are at most as large as this one and as the options say,
+/// with properties that take so many bytes or as many as the options say.
+StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options, std::uint64_t property_bytes);
 
 }  // namespace tvg

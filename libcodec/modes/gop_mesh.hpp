@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include <tvg/properties.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg {
@@ -16,6 +17,7 @@ struct GopMesh {
   CodedMesh coded;
   std::optional<Pyramid> pyramid;  ///< where the mesh has a reference shape (§5.4)
   ReferenceShape shape;            ///< which the pyramid is made of; empty where there is none
+  MeshProperties properties;       ///< decoded; empty for an encoder and where a coarser mesh is drawn
 };
 
 /// Decodes a mesh from the sections of its chunk (format-spec §4.3), to be drawn as its coarser mesh of

@@ -1,5 +1,6 @@
 #include "modes/gop_mesh_encode.hpp"
 
+#include "attributes/mesh_properties_encode.hpp"
 #include "planes/reference_shape_encode.hpp"
 #include "quantization/lattice.hpp"
 
@@ -42,7 +43,8 @@ ReferenceShape shape_of(const CodedMesh& mesh, std::span<const float> frame, con
 
 }  // namespace
 
-EncodedGopMesh finish_mesh(EncodedMesh encoded) {
+EncodedGopMesh finish_mesh(EncodedMesh encoded, const MeshProperties& properties) {
+  encode_properties(properties, nullptr, encoded);
   EncodedGopMesh result;
   result.payload = mesh_payload(encoded);
   result.mesh.coded = std::move(encoded.coded);
@@ -50,7 +52,7 @@ EncodedGopMesh finish_mesh(EncodedMesh encoded) {
 }
 
 Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, double cell,
-                                   std::uint32_t neighbours) {
+                                   std::uint32_t neighbours, const MeshProperties& properties) {
   BoundingBox box;
   box.extend(first_frame);
   ReferenceShape shape = shape_of(encoded.coded, first_frame, lattice_of(box, cell));
@@ -60,6 +62,7 @@ Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> f
   Result<Pyramid> pyramid = build_pyramid(*faces, encoded.coded.mesh.vertex_count, shape.indices,
                                           shape.neighbours, encoded.coded.levels);
   if (!pyramid) return pyramid.error();
+  encode_properties(properties, &shape, encoded);
   EncodedGopMesh result;
   result.payload = mesh_payload(encoded, encode_reference_shape(shape, *faces));
   result.mesh.coded = std::move(encoded.coded);

@@ -14,11 +14,11 @@ struct EncodedGopMesh {
   std::vector<std::uint8_t> payload;
 };
 
-/// Without a reference shape.
-EncodedGopMesh finish_mesh(EncodedMesh encoded);
+/// Without a reference shape. `properties` are those of the mesh, their bits settled.
+EncodedGopMesh finish_mesh(EncodedMesh encoded, const MeshProperties& properties);
 /// With one: the first frame, positions [vertex][xyz] in the order of the input, on a lattice of such cells
 /// or, where it would have too many, of larger ones; vertices are predicted from so many neighbours.
 Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, double cell,
-                                   std::uint32_t neighbours);
+                                   std::uint32_t neighbours, const MeshProperties& properties);
 
 }  // namespace tvg

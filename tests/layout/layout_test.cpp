@@ -52,9 +52,10 @@ std::set<fs::path> decoder_files() {
 
 /// Folders and files of libcodec, each of which may know those before it and no other.
 const std::vector<std::string> kLibraryOrder = {
-    "include",    "base",     "entropy", "container", "geometry",    "connectivity", "quantization",
-    "prediction", "planes",   "basis",   "modes",     "decoder",     "decoder.cpp",  "source",
-    "measure",    "simplify", "metrics", "encoder",   "encoder.cpp", "streams",      "c_api"};
+    "include",      "base",        "entropy", "container",  "geometry", "connectivity",
+    "quantization", "prediction",  "planes",  "attributes", "basis",    "modes",
+    "decoder",      "decoder.cpp", "source",  "measure",    "simplify", "metrics",
+    "encoder",      "encoder.cpp", "streams", "c_api"};
 
 /// The same of the top level; those of one line do not know each other.
 const std::vector<std::set<std::string>> kTopOrder = {

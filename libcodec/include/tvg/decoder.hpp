@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <tvg/properties.hpp>
 #include <tvg/stream_map.hpp>
 #include <tvg/types.hpp>
 
@@ -142,6 +143,10 @@ class Decoder {
   /// coarser mesh (use_lod()) the vertices are some of the whole mesh's, in the same order.
   const Mesh& mesh() const;
   const MeshInfo& mesh_info() const;
+  /// What mesh() has beside its connectivity, in terms of its vertices and faces: a value of a corner is
+  /// there once for the faces around a vertex that share it, and `bits` are those that were used. Empty where
+  /// there is nothing, and for a coarser mesh (use_lod()).
+  const MeshProperties& properties() const;
   /// Coarser meshes that the current mesh has.
   std::uint32_t lod_count() const;
   /// [vertex of mesh()]: its number in the whole mesh, ascending; empty where mesh() is the whole.

@@ -7,6 +7,7 @@
 #include <tvg/geometry.hpp>
 #include <tvg/levels.hpp>
 #include <tvg/measure.hpp>
+#include <tvg/properties.hpp>
 #include <tvg/source.hpp>
 #include <tvg/types.hpp>
 
@@ -17,6 +18,14 @@ namespace tvg {
 struct ErrorBound {
   double value = 0;
   bool of_diagonal = false;
+};
+
+/// How fine the values of attributes are whose bits are Attribute::kBitsOfKind, by their kind; 0: exact.
+struct AttributeBits {
+  int texcoord = 12;
+  int normal = 10;  ///< of each of the two octahedral coordinates
+  int colour = 8;
+  int generic = Attribute::kExact;
 };
 
 struct EncodeOptions {
@@ -43,6 +52,7 @@ struct EncodeOptions {
   /// positions to float32 (which encode() allows for where the source can be read twice). B2 and B1 must be
   /// the same.
   std::optional<ErrorBound> max_error;
+  AttributeBits attribute_bits;
   bool keep_vertex_order = true;
   /// Levels of the first mesh's vertices, and coarser meshes of it, at most 16, each with no more faces than
   /// the mesh. The pyramid is built from the levels; a coarser mesh can be played (Decoder::use_lod()), in
@@ -58,6 +68,7 @@ struct EncodeOptions {
   /// Bounds for the meshes to come, which the head declares; what the first mesh has where it has more.
   std::uint32_t max_vertices = 0;
   std::uint32_t max_faces = 0;
+  std::uint32_t max_property_bytes = 0;  ///< of what meshes have beside connectivity (property_bytes_of())
   /// How many meshes a decoder must keep, 1 to 65536: one of the last so many that comes again is not sent
   /// again.
   std::uint32_t max_meshes = 1;
@@ -97,7 +108,9 @@ class Encoder {
   /// writes the head: kInvalidArgument where the options are out of range, or the importance asks for what
   /// this mesh and skeleton do not have. A later call ends the GOP and begins a new mesh: kLimitExceeded
   /// where that is larger than the head declares, kWrongState where the mesh before it has no frame yet.
-  Status set_mesh(const Mesh& mesh, const Skeleton& skeleton = {});
+  /// `properties` are what the mesh has beside its connectivity, copied as well: kInvalidInput where they do
+  /// not fit it, or have values that are not finite.
+  Status set_mesh(const Mesh& mesh, const Skeleton& skeleton = {}, const MeshProperties& properties = {});
 
   /// The next frame: positions [vertex][xyz] and, where the importance uses the skeleton, the joints
   /// [joint][xyz]. Both are copied. kInvalidArgument for a wrong size, and for a frame that makes its GOP's
@@ -112,6 +125,10 @@ class Encoder {
   class State;
   std::unique_ptr<State> state_;
 };
+
+/// What properties count for against EncodeOptions::max_property_bytes and StreamLimits::property_bytes
+/// (format-spec §5.7).
+std::uint64_t property_bytes_of(const MeshProperties& properties, const Mesh& mesh);
 
 /// Pushes a sequence through an encoder. Where the options have a box or a step and no largest error, or are
 /// lossless, the source is read once, from where it stands, and not rewound. Otherwise a source that can be

@@ -112,6 +112,7 @@ typedef struct tvg_limits {
   uint32_t plan_bytes;     /* of one chunk of planes that GOPs share; 2^30 unless set */
   uint32_t components;     /* of such a chunk; 2^14 unless set */
   uint32_t plans;          /* such chunks kept at once; 256 unless set */
+  uint32_t property_bytes; /* that attributes, parts and polygons of a mesh take; 2^31 unless set */
 } tvg_limits;
 
 /* What the head of a stream says, and its index where that is known. */

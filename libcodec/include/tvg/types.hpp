@@ -172,6 +172,8 @@ struct StreamLimits {
   std::uint32_t plan_bytes = 0;      ///< of any chunk's payload that holds planes GOPs share; 0: none of use
   std::uint32_t components = 0;      ///< that any such chunk has
   std::uint32_t plans = 1;           ///< such chunks in force at once
+  std::uint32_t property_bytes =
+      0;  ///< that the properties of any mesh take (format-spec §5.7); 0: none has any
 
   bool operator==(const StreamLimits&) const = default;
 };
@@ -181,8 +183,12 @@ struct StreamLimits {
 constexpr std::uint64_t decoder_memory_needed(const StreamLimits& limits) {
   const std::uint64_t vertices = limits.vertices, faces = limits.faces;
   const std::uint64_t further_meshes = limits.meshes > 0 ? limits.meshes - 1 : 0;
+  const std::uint64_t properties =
+      limits.property_bytes == 0
+          ? 0
+          : limits.meshes * std::uint64_t{limits.property_bytes} + 192 * vertices + 512 * faces;
   return (std::uint64_t{1} << 20) + 160 * vertices + 96 * faces + 4 * std::uint64_t{limits.packet_bytes} +
-         limits.mesh_bytes + further_meshes * (512 + 24 * vertices + 16 * faces);
+         limits.mesh_bytes + further_meshes * (512 + 24 * vertices + 16 * faces) + properties;
 }
 
 /// The same where meshes have reference shapes, from which the pyramid is made that frames may be predicted
@@ -268,6 +274,7 @@ struct DecoderLimits {
   std::uint32_t plan_bytes = 1u << 30;
   std::uint32_t components = 1u << 14;
   std::uint32_t plans = kMaxPlansInForce;
+  std::uint32_t property_bytes = 1u << 31;
 };
 
 struct ByteRange {

@@ -1,0 +1,155 @@
+#include "attributes/attribute_coder.hpp"
+#include "attributes/attributes.hpp"
+#include "base/allocation.hpp"
+#include "base/stream_error.hpp"
+#include "container/numbers.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace tvg {
+
+namespace {
+
+constexpr const char* kSection = "§5.7";
+constexpr Fault kTooLarge{kSection, "the properties of a mesh take more than the head declares",
+                          ErrorCode::kLimitExceeded};
+constexpr Fault kNoMemory{"", "", ErrorCode::kOutOfMemory};
+
+bool has_valid_shape(const Attribute& attribute) {
+  if (attribute.components < 1 || attribute.components > kMaxAttributeComponents) return false;
+  const std::uint32_t components = attribute.components;
+  switch (attribute.kind) {
+    case AttributeKind::kNormal:
+      return components == 3 && attribute.bits <= kMaxNormalBits &&
+             (attribute.bits == Attribute::kExact || attribute.bits >= kMinNormalBits);
+    case AttributeKind::kColour:
+      return components >= 3 && attribute.bits <= kMaxAttributeBits;
+    case AttributeKind::kTexcoord:
+    case AttributeKind::kGeneric:
+      return attribute.bits <= kMaxAttributeBits;
+  }
+  return false;
+}
+
+// format-spec §5.7
+Fault read_head(ByteReader& reader, Attribute& attribute, AttributeGrid& grid) {
+  attribute.kind = static_cast<AttributeKind>(reader.u8());
+  attribute.domain = static_cast<AttributeDomain>(reader.u8());
+  attribute.components = reader.u8();
+  attribute.bits = reader.u8();
+  const Bytes name = reader.bytes(reader.varint());
+  if (!reader.ok()) return {kSection, "the attributes end before their values"};
+  if (attribute.domain > AttributeDomain::kPart || !has_valid_shape(attribute))
+    return {kSection, "an attribute is of a kind that is not allowed"};
+  if (!can_allocate(name.size() + kSmallThings)) return kNoMemory;
+  attribute.name.assign(name.begin(), name.end());
+  if (!is_metadata_text(attribute.name)) return {kSection, "the name of an attribute is no text in UTF-8"};
+  grid = {attribute.kind, attribute.components, attribute.bits, {}, 0};
+  if (!grid.stepped()) return {};
+  bool finite = true;
+  for (std::size_t c = 0; c < grid.components; ++c) {
+    grid.origin[c] = bits_as<float>(reader.u32());
+    finite = finite && std::isfinite(grid.origin[c]);
+  }
+  grid.range = reader.f64();
+  if (!reader.ok()) return {kSection, "the attributes end before their values"};
+  if (!finite || !std::isfinite(grid.range) || !(grid.range >= 0))
+    return {kSection, "the grid of an attribute is not finite"};
+  return {};
+}
+
+/// Whether integers that were read are those of a grid.
+bool are_valid(std::span<const std::int32_t> integers, const AttributeGrid& grid) {
+  if (grid.bits == Attribute::kExact) {
+    const std::int32_t most = ordered_integer(std::numeric_limits<float>::max());
+    return std::all_of(integers.begin(), integers.end(),
+                       [&](std::int32_t n) { return n <= most && n >= -1 - most; });
+  }
+  const std::int32_t most = grid.octahedral() ? grid.none() : grid.largest();
+  for (std::size_t i = 0; i < integers.size(); ++i) {
+    if (integers[i] < 0 || integers[i] > most) return false;
+    if (grid.octahedral() && i % 2 == 1 && (integers[i] == most) != (integers[i - 1] == most)) return false;
+  }
+  return true;
+}
+
+/// Reads the stream behind the heads.
+class Reading {
+ public:
+  Reading(Bytes stream, const PropertyMesh& mesh, std::size_t part_count)
+      : mesh_(mesh), part_count_(part_count), decoder_(stream), coder_(mesh) {}
+
+  Fault take(const AttributeGrid& grid, Attribute& attribute) {
+    std::size_t count = part_count_;
+    if (attribute.domain == AttributeDomain::kVertex) count = mesh_.vertex_count();
+    if (attribute.domain == AttributeDomain::kCorner) {
+      std::vector<std::uint8_t> seams(3 * mesh_.faces.size());
+      if (!coder_.code_seams(decoder_, seams)) return damaged();
+      Wedges wedges = wedges_between(coder_.partners(), seams);
+      count = wedges.count();
+      attribute.corners = std::move(wedges.of_corner);
+    }
+    const std::size_t width = grid.integers(), components = grid.components;
+    if (!can_allocate(4 * (width + components) * count)) return kNoMemory;
+    std::vector<std::int32_t> integers(width * count);
+    if (!coder_.code_values(decoder_, grid, integers) || !are_valid(integers, grid)) return damaged();
+    attribute.values.resize(components * count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t place = attribute.domain == AttributeDomain::kVertex ? mesh_.order[i] : i;
+      grid.value_of(std::span(integers).subspan(width * i, width),
+                    std::span(attribute.values).subspan(components * place, components));
+    }
+    return {};
+  }
+
+  Fault finish() const { return decoder_.finished() ? Fault() : damaged(); }
+
+ private:
+  static Fault damaged() { return {kSection, "the values of the attributes are damaged"}; }
+
+  const PropertyMesh& mesh_;
+  std::size_t part_count_;
+  RangeDecoder decoder_;
+  AttributeCoder coder_;
+};
+
+/// What beside the result is in memory at once.
+std::size_t working_bytes(const PropertyMesh& mesh) {
+  return pair_edges_bytes(mesh.faces.size(), mesh.vertex_count()) + 64 * mesh.faces.size();
+}
+
+Fault read_all(ByteReader reader, const PropertyMesh& mesh, std::size_t part_count, PropertyBudget& budget,
+               std::vector<Attribute>& attributes) {
+  const std::uint64_t count = reader.varint();
+  if (!reader.ok() || count == 0 || count > kMaxAttributes)
+    return {kSection, "the number of attributes is out of range"};
+  std::array<AttributeGrid, kMaxAttributes> grids;
+  if (!try_resize(attributes, static_cast<std::size_t>(count))) return kNoMemory;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const Fault fault = read_head(reader, attributes[i], grids[i])) return fault;
+    const Attribute& head = attributes[i];
+    if (!budget.take(attribute_bytes({mesh.vertex_count(), mesh.faces.size(), part_count}, head.domain,
+                                     head.components, head.name.size())))
+      return kTooLarge;
+  }
+  if (!can_allocate(working_bytes(mesh) + kSmallThings)) return kNoMemory;
+  Reading reading(reader.bytes(reader.left()), mesh, part_count);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (const Fault fault = reading.take(grids[i], attributes[i])) return fault;
+  }
+  return reading.finish();
+}
+
+}  // namespace
+
+// format-spec §5.7
+Result<std::vector<Attribute>> decode_attributes(Bytes section, const PropertyMesh& mesh,
+                                                 std::size_t part_count, PropertyBudget& budget) {
+  std::vector<Attribute> attributes;
+  const Fault fault = read_all(ByteReader(section), mesh, part_count, budget, attributes);
+  if (!fault) return attributes;
+  return fault.code == ErrorCode::kOutOfMemory ? out_of_memory() : error_of(fault);
+}
+
+}  // namespace tvg
