@@ -30,7 +30,16 @@ struct DecodeArguments {
   std::uint32_t lod = 0;
   bool conceal = false;
   bool quiet = false;
+  std::string gltf_positions = "float";
+  std::string gltf_keys = "linear";
 };
+
+SinkOptions sink_options(const DecodeArguments& arguments) {
+  SinkOptions options;
+  options.gltf_quantized = arguments.gltf_positions == "quantized";
+  options.gltf_steps = arguments.gltf_keys == "step";
+  return options;
+}
 
 /// Of frames that were decoded and not written yet. GOPs larger than that are decoded one at a time.
 constexpr std::uint64_t kMostBytesAhead = std::uint64_t{1} << 30;
@@ -41,7 +50,7 @@ class DecodeJob {
   explicit DecodeJob(const DecodeArguments& arguments)
       : arguments_(arguments),
         reader_(arguments.input),
-        sink_(open_sink(arguments.output, {})),
+        sink_(open_sink(arguments.output, sink_options(arguments))),
         concealment_(reader_.name(), arguments.conceal),
         bar_("decoding", arguments.quiet),
         threads_(arguments.threads != 0 ? arguments.threads
@@ -103,7 +112,7 @@ class DecodeJob {
     if (wanted_) frames = wanted_->last - wanted_->first + 1;
     output_frames_ = frames;
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-    sink_->begin_mesh(decoder.mesh(), {}, decoder.metadata(), frames);
+    sink_->begin_mesh(decoder.mesh(), decoder.properties(), decoder.metadata(), frames);
     if (wanted_ && index_ && wanted_->first > 0) reader_.seek(wanted_->first);
   }
 
@@ -122,7 +131,7 @@ class DecodeJob {
     if (!std::exchange(pending_mesh_, false)) return positions_;
     const Decoder& decoder = reader_.decoder();
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-    sink_->begin_mesh(decoder.mesh(), {}, decoder.metadata(), output_frames_);
+    sink_->begin_mesh(decoder.mesh(), decoder.properties(), decoder.metadata(), output_frames_);
     return positions_;
   }
 
@@ -163,7 +172,7 @@ class DecodeJob {
         return;
       }
       if (std::exchange(told_mesh, gop->mesh_offset) != gop->mesh_offset)
-        sink_->begin_mesh(*gop->mesh, {}, reader_.decoder().metadata(), output_frames_);
+        sink_->begin_mesh(*gop->mesh, *gop->properties, reader_.decoder().metadata(), output_frames_);
       for (std::size_t i = 0; i < gop->frames.size() && !done_; ++i) {
         positions_.swap(gop->frames[i]);
         take_frame(gop->first_frame + i);
@@ -201,11 +210,7 @@ class DecodeJob {
   void report() const {
     if (arguments_.quiet) return;
     for (const std::string& note : sink_->notes()) fmt::print(stderr, "note: {}\n", note);
-    const std::vector<std::string>& files = sink_->files();
-    const std::string names = files.empty()       ? arguments_.output
-                              : files.size() <= 2 ? fmt::format("{}", fmt::join(files, ", "))
-                                                  : files.front() + " to " + files.back();
-    fmt::print(stderr, "{}: {} frames\n", names, written_ + lost_);
+    fmt::print(stderr, "{}: {} frames\n", written_files(*sink_, arguments_.output), written_ + lost_);
     if (arguments_.lod > 0) fmt::print(stderr, "note: {}\n", reader_.lod_note());
   }
 
@@ -241,8 +246,9 @@ void add_decode_command(CLI::App& tool) {
   command
       .add_option(
           "-o,--output", arguments->output,
-          "a cache (back.pc2, back.mdd; the mesh goes beside it as OBJ; - for PC2 on standard output) or a "
-          "sequence of mesh files (back_%04d.obj, .ply, .off, .stl)")
+          "a cache (back.pc2, back.mdd, back.npy; the mesh goes beside it as OBJ; - for PC2 on standard "
+          "output), a scene that any engine plays (back.glb, back.gltf), or a sequence of mesh files "
+          "(back_%04d.obj, .ply, .off, .stl)")
       ->required();
   command.add_option("--frames", arguments->frames, "decode frames A-B only, counted from 0");
   command
@@ -258,6 +264,16 @@ void add_decode_command(CLI::App& tool) {
       ->check(CLI::Range(0u, kMaxCoarseMeshes));
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
+  command
+      .add_option("--gltf-positions", arguments->gltf_positions,
+                  "of .glb and .gltf: float, or quantized: 16 bits over all frames (KHR_mesh_quantization)")
+      ->check(CLI::IsMember({"float", "quantized"}))
+      ->capture_default_str();
+  command
+      .add_option("--gltf-keys", arguments->gltf_keys,
+                  "of .glb and .gltf: linear, where frames pass over into the next, or step")
+      ->check(CLI::IsMember({"linear", "step"}))
+      ->capture_default_str();
   command.add_option("--threads", arguments->threads, "GOPs decoded at a time (default: one per processor)")
       ->check(CLI::Range(1, 256));
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
