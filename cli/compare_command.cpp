@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/compared_sides.hpp"
+#include "cli/input_options.hpp"
 #include "cli/surface_report.hpp"
 #include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_file.hpp"
@@ -28,6 +29,8 @@ struct CompareArguments {
   std::vector<std::string> meshes;
   std::string clip;
   std::string fps;
+  std::string gaps;
+  std::string weld;
   std::uint32_t hausdorff_stride = 0;
   std::uint32_t samples = SurfaceSettings().samples;
   bool surfaces = false;
@@ -49,6 +52,7 @@ std::unique_ptr<FrameSource> open_side(const std::string& path, const CompareArg
   if (is_stream_file(path)) return std::make_unique<StreamSource>(path);
   std::string mesh;
   SourceSpec spec{{path}};
+  spec.sequence = sequence_options(arguments.gaps, arguments.weld);
   spec.sequence.origin = origin;
   for (const std::string& name : arguments.meshes) {
     if (mesh_format(name)) {
@@ -78,18 +82,6 @@ std::optional<Origin> shared_origin(const std::string& path, const FrameSource& 
   if (!origin)
     throw ToolError(ExitStatus::kInvalidInput, path + ": its metadata `origin` are not three numbers");
   return origin;
-}
-
-/// The faces, whatever their order and whichever corner comes first: a stream does not keep either.
-std::vector<Face> faces_of(const Mesh& mesh) {
-  std::vector<Face> faces = mesh.faces;
-  for (Face& face : faces) std::sort(face.begin(), face.end());
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
-
-bool same_connectivity(const Mesh& a, const Mesh& b) {
-  return a.vertex_count == b.vertex_count && faces_of(a) == faces_of(b);
 }
 
 ComparedSides open_sides(const CompareArguments& arguments) {
@@ -179,15 +171,32 @@ void print_text(const std::vector<Stretch>& stretches) {
              stretches.size(), all.max_coordinate_error, all.rms_coordinate_error);
 }
 
+/// So that what was read to no end can be compared in another way.
+void begin_again(const ComparedSides& sides) {
+  for (const auto& [source, name] : {std::pair(sides.original.get(), &sides.original_name),
+                                     std::pair(sides.decoded.get(), &sides.decoded_name)}) {
+    if (!source->rewind()) {
+      throw ToolError(ExitStatus::kInvalidInput,
+                      *name +
+                          " comes to have other vertices and cannot be read twice: --surfaces compares "
+                          "surfaces from the first frame on");
+    }
+  }
+}
+
 void run_compare(const CompareArguments& arguments) {
   const ComparedSides sides = open_sides(arguments);
   const std::uint32_t stride = std::max(1u, arguments.hausdorff_stride);
-  if (arguments.surfaces || !same_connectivity(sides.original->mesh(), sides.decoded->mesh())) {
+  std::optional<std::vector<Stretch>> stretches;
+  if (!arguments.surfaces) {
+    stretches = compare_vertices(sides, {arguments.hausdorff_stride > 0, stride});
+    if (!stretches) begin_again(sides);
+  }
+  if (!stretches) {
     const SurfaceReport report = compare_surfaces(sides, {arguments.samples, stride});
     return arguments.json ? print_surface_json(report) : print_surface_report(report);
   }
-  const std::vector<Stretch> stretches = compare_vertices(sides, {arguments.hausdorff_stride > 0, stride});
-  arguments.json ? print_json(stretches) : print_text(stretches);
+  arguments.json ? print_json(*stretches) : print_text(*stretches);
 }
 
 }  // namespace
@@ -206,6 +215,7 @@ void add_compare_command(CLI::App& tool) {
       "--mesh", arguments->meshes,
       "the mesh of the caches (OBJ, PLY, OFF, STL), or a mesh of a scene by name, as it was encoded; "
       "may be repeated");
+  add_sequence_options(command, arguments->gaps, arguments->weld);
   command.add_option("--clip", arguments->clip, "the clip of a scene, as it was encoded");
   command.add_option("--fps", arguments->fps,
                      "sample a scene at this rate (default: that of the decoded stream)");

@@ -1,6 +1,5 @@
 #include "cli/compared_sides.hpp"
 
-#include "tool/mesh_changes.hpp"
 #include "tool/progress.hpp"
 #include "tool/tool_error.hpp"
 
@@ -13,6 +12,24 @@ namespace tvg::cli {
 
 namespace {
 
+/// The faces, whatever their order and whichever corner comes first: a stream does not keep either.
+std::vector<Face> faces_of(const Mesh& mesh) {
+  std::vector<Face> faces = mesh.faces;
+  for (Face& face : faces) std::sort(face.begin(), face.end());
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+bool same_connectivity(const Mesh& a, const Mesh& b) {
+  return a.vertex_count == b.vertex_count && a.faces.size() == b.faces.size() && faces_of(a) == faces_of(b);
+}
+
+SourceStep read(FrameSource& source, FramePositions& frame) {
+  const Result<SourceStep> step = read_step(source, frame);
+  if (!step) throw tool_error(step.error());
+  return *step;
+}
+
 /// Both sides, frame by frame, over changes of the mesh that both have.
 class Comparing {
  public:
@@ -23,10 +40,11 @@ class Comparing {
         settings_(settings),
         bar_("comparing", sides.quiet) {}
 
-  std::vector<Stretch> run() {
+  std::optional<std::vector<Stretch>> run() {
     for (;;) {
+      if (!same_connectivity(original_.mesh(), decoded_.mesh())) return std::nullopt;
       const std::uint64_t first = frame_;
-      SequenceComparison comparison = begin();
+      SequenceComparison comparison(original_.mesh(), settings_);
       const bool more = compare_stretch(comparison);
       stretches_.push_back({first, comparison.report()});
       if (!more) return std::move(stretches_);
@@ -34,54 +52,30 @@ class Comparing {
   }
 
  private:
-  enum class Next { kFrame, kMesh, kEnd };
-
-  SequenceComparison begin() {
-    const std::uint32_t vertices = original_.mesh().vertex_count;
-    if (decoded_.mesh().vertex_count != vertices) {
-      throw ToolError(
-          ExitStatus::kInvalidInput,
-          fmt::format("{} has {} vertices and {} has {}{}: only frames of one mesh can be compared",
-                      sides_.original_name, vertices, sides_.decoded_name, decoded_.mesh().vertex_count,
-                      frame_ > 0 ? fmt::format(" from frame {} on", frame_) : ""));
-    }
-    a_.assign(3 * std::size_t{vertices}, 0);
-    b_ = a_;
-    return SequenceComparison(original_.mesh(), settings_);
-  }
-
-  static Next read(FrameSource& source, FramePositions& frame) {
-    const Result<bool> read = source.read_frame(frame);
-    if (read) return *read ? Next::kFrame : Next::kEnd;
-    auto* changes = dynamic_cast<MeshChanges*>(&source);
-    if (changes != nullptr && changes->go_on_with_next_mesh()) return Next::kMesh;
-    throw tool_error(read.error());
-  }
-
   /// Compares up to the next mesh (true) or the end.
   bool compare_stretch(SequenceComparison& comparison) {
     for (;; ++frame_) {
-      const Next a = read(original_, a_);
-      const Next b = read(decoded_, b_);
+      const SourceStep a = read(original_, a_);
+      const SourceStep b = read(decoded_, b_);
       if (a != b) fail_apart(a, b);
-      if (a != Next::kFrame) return a == Next::kMesh;
+      if (a != SourceStep::kFrame) return a == SourceStep::kMesh;
       if (Status status = comparison.add_frame(a_, b_); !status.ok())
         throw tool_error(sides_.decoded_name, status.error());
       bar_.update(frame_ + 1, original_.frame_count());
     }
   }
 
-  [[noreturn]] void fail_apart(Next a, Next b) const {
-    const std::string& ended = a == Next::kEnd ? sides_.original_name : sides_.decoded_name;
-    const std::string& goes_on = a == Next::kEnd ? sides_.decoded_name : sides_.original_name;
-    if (a == Next::kEnd || b == Next::kEnd) {
+  [[noreturn]] void fail_apart(SourceStep a, SourceStep b) const {
+    const std::string& ended = a == SourceStep::kEnd ? sides_.original_name : sides_.decoded_name;
+    const std::string& goes_on = a == SourceStep::kEnd ? sides_.decoded_name : sides_.original_name;
+    if (a == SourceStep::kEnd || b == SourceStep::kEnd) {
       throw ToolError(ExitStatus::kInvalidInput,
                       fmt::format("{} ends after {} frames, {} goes on", ended, frame_, goes_on));
     }
     throw ToolError(ExitStatus::kInvalidInput,
                     fmt::format("{} has another mesh from frame {} on, {} has not",
-                                a == Next::kMesh ? sides_.original_name : sides_.decoded_name, frame_,
-                                a == Next::kMesh ? sides_.decoded_name : sides_.original_name));
+                                a == SourceStep::kMesh ? sides_.original_name : sides_.decoded_name, frame_,
+                                a == SourceStep::kMesh ? sides_.decoded_name : sides_.original_name));
   }
 
   const ComparedSides& sides_;
@@ -104,7 +98,8 @@ class Comparing {
 
 }  // namespace
 
-std::vector<Stretch> compare_vertices(const ComparedSides& sides, const ComparisonSettings& settings) {
+std::optional<std::vector<Stretch>> compare_vertices(const ComparedSides& sides,
+                                                     const ComparisonSettings& settings) {
   return Comparing(sides, settings).run();
 }
 
@@ -153,18 +148,19 @@ ComparisonReport together(const std::vector<Stretch>& stretches) {
 
 SurfaceReport compare_surfaces(const ComparedSides& sides, const SurfaceSettings& settings) {
   SurfaceComparison comparison(sides.original->mesh(), sides.decoded->mesh(), settings);
-  FramePositions a(3 * std::size_t{sides.original->mesh().vertex_count});
-  FramePositions b(3 * std::size_t{sides.decoded->mesh().vertex_count});
+  FramePositions a, b;
   ProgressBar bar("comparing", sides.quiet);
-  for (std::uint64_t frame = 0;; ++frame) {
-    const Result<bool> more_a = sides.original->read_frame(a), more_b = sides.decoded->read_frame(b);
-    if (!more_a) throw tool_error(more_a.error());
-    if (!more_b) throw tool_error(more_b.error());
-    if (*more_a != *more_b) fail_length(sides, !*more_a, frame);
-    if (!*more_a) return comparison.report();
+  for (std::uint64_t frame = 0;;) {
+    SourceStep step_a, step_b;
+    while ((step_a = read(*sides.original, a)) == SourceStep::kMesh)
+      comparison.set_original(sides.original->mesh());
+    while ((step_b = read(*sides.decoded, b)) == SourceStep::kMesh)
+      comparison.set_other(sides.decoded->mesh());
+    if (step_a != step_b) fail_length(sides, step_a == SourceStep::kEnd, frame);
+    if (step_a == SourceStep::kEnd) return comparison.report();
     if (Status status = comparison.add_frame(a, b); !status.ok())
       throw tool_error(sides.decoded_name, status.error());
-    bar.update(frame + 1, sides.original->frame_count());
+    bar.update(++frame, sides.original->frame_count());
   }
 }
 

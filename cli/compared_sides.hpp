@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,16 @@ struct Stretch {
 };
 
 /// Compares both sides frame by frame, over changes of the mesh that both have: a stretch for each mesh.
+/// Nothing where their meshes come to have other vertices or faces, so that only surfaces can be compared.
 /// Throws ToolError.
-std::vector<Stretch> compare_vertices(const ComparedSides& sides, const ComparisonSettings& settings);
+std::optional<std::vector<Stretch>> compare_vertices(const ComparedSides& sides,
+                                                     const ComparisonSettings& settings);
 
 /// The figures of all stretches: the largest of what is largest and of what is relative to a mesh, means over
 /// all coordinates of what is a mean.
 ComparisonReport together(const std::vector<Stretch>& stretches);
 
-/// Compares the surfaces of both sides, whose meshes may differ and must not change. Throws ToolError.
+/// Compares the surfaces of both sides, whose meshes may differ and may change. Throws ToolError.
 SurfaceReport compare_surfaces(const ComparedSides& sides, const SurfaceSettings& settings);
 
 }  // namespace tvg::cli

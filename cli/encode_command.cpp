@@ -45,6 +45,10 @@ struct EncodeArguments : InputArguments {
   int effort = 5;
   unsigned threads = 0;
   bool reorder = false;
+  bool keep_order = false;
+  std::uint32_t max_vertices = 0;
+  std::uint32_t max_faces = 0;
+  std::uint32_t max_meshes = 1;
   bool live = false;
   bool loop = false;
   bool quiet = false;
@@ -140,6 +144,10 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   const std::uint32_t usual_gop = options.mode == Mode::kBasis ? kBasisGopFrames : options.gop_frames;
   options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : usual_gop);
   options.keep_vertex_order = !arguments.reorder;
+  options.suit_captured = !arguments.keep_order;
+  options.max_vertices = arguments.max_vertices;
+  options.max_faces = arguments.max_faces;
+  options.max_meshes = arguments.max_meshes;
   options.threads =
       arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
   if (arguments.live && arguments.period.empty()) options.period_frames = options.gop_frames;
@@ -173,14 +181,18 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
   if (report.box_of_each_gop && !arguments.live) {
     fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
   }
-  const std::uint64_t raw = 12 * report.frames * report.vertices;
+  if (report.captured) {
+    fmt::print(stderr,
+               "note: each frame has a mesh of its own, so the vertex order is given up and frames are coded "
+               "by themselves (--keep-order keeps it)\n");
+  }
   fmt::print(
-      stderr,
-      "{}: {} frames of {} vertices in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
-      arguments.output == "-" ? "standard output" : arguments.output, report.frames, report.vertices,
-      report.gops, readable_bytes(report.bytes),
-      bits_per_coordinate(report.bytes, report.vertices, report.frames),
-      static_cast<double>(raw) / static_cast<double>(report.bytes));
+      stderr, "{}: {} frames of {} in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
+      arguments.output == "-" ? "standard output" : arguments.output, report.frames,
+      report.meshes == 1 ? fmt::format("{} vertices", report.vertices)
+                         : fmt::format("{} meshes", report.meshes),
+      report.gops, readable_bytes(report.bytes), bits_per_coordinate(report.bytes, report.vertex_frames, 1),
+      12 * static_cast<double>(report.vertex_frames) / static_cast<double>(report.bytes));
   if (report.largest_error > 0)
     fmt::print(stderr, "no coordinate is off by more than {:.3g}\n", report.largest_error);
 }
@@ -273,6 +285,25 @@ void add_coding_options(CLI::App& command, EncodeArguments& arguments) {
   for (std::size_t i = before; i < choices.size(); ++i) lossless->excludes(choices[i]);
 }
 
+/// What the head says of meshes to come, where the input cannot be looked through before.
+void add_mesh_bounds(CLI::App& command, EncodeArguments& arguments) {
+  command
+      .add_option("--max-vertices", arguments.max_vertices,
+                  "vertices of the largest mesh to come, where frames are read only once (default: those of "
+                  "the first mesh)")
+      ->check(CLI::Range(1u, kMaxVertexCount));
+  command
+      .add_option("--max-faces", arguments.max_faces,
+                  "faces of the largest mesh to come (default: those of the first mesh)")
+      ->check(CLI::Range(1u, kMaxFaceCount));
+  command
+      .add_option(
+          "--max-meshes", arguments.max_meshes,
+          "how many of the last meshes a decoder keeps at least, so that they can come again (default: "
+          "as many as pay, up to 16; where frames are read only once, 1)")
+      ->check(CLI::Range(1u, kMaxMeshesInForce));
+}
+
 }  // namespace
 
 void add_encode_command(CLI::App& tool) {
@@ -295,8 +326,13 @@ void add_encode_command(CLI::App& tool) {
                   "frames that can be decoded on their own (default 50; in mode basis 32; with --live 15)")
       ->check(CLI::Range(1, 65536));
   add_level_options(command, arguments->levels);
-  command.add_flag("--reorder", arguments->reorder,
-                   "give up the vertex order, which saves about a byte per vertex");
+  auto* reorder = command.add_flag("--reorder", arguments->reorder,
+                                   "give up the vertex order, which saves about a byte per vertex");
+  command
+      .add_flag("--keep-order", arguments->keep_order,
+                "keep the vertex order, and code frames as otherwise, even where each has a mesh of its own")
+      ->excludes(reorder);
+  add_mesh_bounds(command, *arguments);
   command.add_option("--fps", arguments->fps,
                      "frames per second, kept with the stream (30, 30000/1001); a scene is sampled at it "
                      "(default 30)");

@@ -44,6 +44,10 @@ const char* name_of(Mode mode) {
   return mode == Mode::kLossless ? "lossless" : mode == Mode::kBasis ? "basis" : "elp";
 }
 
+const char* name_of(DataEncoding encoding) {
+  return encoding == DataEncoding::kStored ? "stored" : encoding == DataEncoding::kZstd ? "zstd" : "unknown";
+}
+
 /// All that is shown of a stream.
 struct StreamSummary {
   std::string file;
@@ -68,7 +72,7 @@ struct StreamSummary {
 
 /// Bytes by what they serve; the last takes what is left.
 std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summary) {
-  double connectivity = 0, order = 0, shape = 0, levels = 0, lods = 0, flags = 0, planes = 0;
+  double connectivity = 0, order = 0, shape = 0, levels = 0, lods = 0, flags = 0, planes = 0, data = 0;
   for (const SurveyedMesh& mesh : summary.stream.meshes) {
     connectivity += static_cast<double>(mesh.parts.connectivity_bytes);
     order += static_cast<double>(mesh.parts.order_bytes);
@@ -77,6 +81,7 @@ std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summar
     lods += static_cast<double>(mesh.parts.lods_bytes);
   }
   for (const GopInfo& gop : summary.stream.gops) flags += static_cast<double>(gop.flag_bytes);
+  for (const SurveyedData& one : summary.stream.data) data += static_cast<double>(one.bytes);
   for (const SurveyedPlan& plan : summary.stream.plans) planes += static_cast<double>(plan.bytes);
   std::vector<std::pair<const char*, double>> result = {{"connectivity", connectivity},
                                                         {"order", order},
@@ -84,7 +89,8 @@ std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summar
                                                         {"levels", levels},
                                                         {"lods", lods},
                                                         {"flags", flags},
-                                                        {"planes", planes}};
+                                                        {"planes", planes},
+                                                        {"data", data}};
   double left = static_cast<double>(summary.stream.bytes);
   for (const auto& [purpose, bytes] : result) left -= bytes;
   if (!summary.decoded) {
@@ -215,6 +221,12 @@ void print_json(const StreamSummary& summary) {
   for (const ChunkInfo& chunk : stream.chunks) {
     json["chunks"].push_back({{"type", chunk.type}, {"offset", chunk.offset}, {"bytes", chunk.bytes}});
   }
+  for (const SurveyedData& data : stream.data) {
+    json["data"].push_back({{"name", data.name},
+                            {"encoding", name_of(data.encoding)},
+                            {"decoded_size", data.decoded_size},
+                            {"bytes", data.bytes}});
+  }
   for (const SurveyedPlan& plan : stream.plans) {
     json["planes"].push_back({{"first_frame", plan.first_frame},
                               {"frame_count", plan.frame_count},
@@ -283,6 +295,15 @@ void print_lods(const MeshInfo& mesh) {
   }
 }
 
+/// Free-form data.
+void print_data(const StreamSurvey& stream) {
+  if (stream.data.empty()) return;
+  fmt::print("\ndata\n  {:>12} {:>12}  {:<8} {}\n", "size", "bytes", "encoding", "name");
+  for (const SurveyedData& data : stream.data)
+    fmt::print("  {:>12} {:>12}  {:<8} {}\n", data.decoded_size, data.bytes, name_of(data.encoding),
+               data.name);
+}
+
 void print_text(const StreamSummary& summary) {
   const StreamSurvey& stream = summary.stream;
   const SurveyedMesh mesh = summary.last_mesh();
@@ -307,6 +328,7 @@ void print_text(const StreamSummary& summary) {
   }
   if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
   print_purposes(summary);
+  print_data(stream);
   print_lods(mesh.parts);
   print_planes(summary);
   print_gops(summary);

@@ -12,6 +12,19 @@
 
 namespace tvg::cli {
 
+void add_sequence_options(CLI::App& command, std::string& gaps, std::string& weld) {
+  command
+      .add_option("--gaps", gaps,
+                  "numbers that a sequence leaves out, and files without faces: hold the frame before, skip "
+                  "them, or refuse (default: refuse the former; the latter are frames that show nothing; "
+                  "a number every N is no gap)")
+      ->check(CLI::IsMember({"hold", "skip", "refuse"}));
+  command.add_option(
+      "--weld", weld,
+      "corners of STL are one vertex where they lie no further apart than this, in the mesh's "
+      "units (0.001) or as a share of the diagonal of the first frame's box (default 0.0001%)");
+}
+
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others) {
   command
       .add_option(
@@ -24,15 +37,7 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
               others)
       ->required();
   command.add_option("--frames", arguments.frames, "frames A-B only, counted from 0");
-  command
-      .add_option("--gaps", arguments.gaps,
-                  "numbers that a sequence leaves out, and files without faces: hold the frame before, skip "
-                  "them, or refuse (default; a number every N is no gap)")
-      ->check(CLI::IsMember({"hold", "skip", "refuse"}));
-  command.add_option(
-      "--weld", arguments.weld,
-      "corners of STL are one vertex where they lie no further apart than this, in the mesh's "
-      "units (0.001) or as a share of the diagonal of the first frame's box (default 0.0001%)");
+  add_sequence_options(command, arguments.gaps, arguments.weld);
   command
       .add_option(
           "--cache-up", arguments.cache_up,
@@ -47,22 +52,19 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
   add_skeleton_option(command, arguments.skeleton);
 }
 
-namespace {
-
-SequenceOptions sequence_options(const InputArguments& arguments) {
+SequenceOptions sequence_options(const std::string& gaps, const std::string& weld) {
   SequenceOptions options;
-  if (arguments.gaps == "hold") options.gaps = Gaps::kHold;
-  if (arguments.gaps == "skip") options.gaps = Gaps::kSkip;
-  if (arguments.weld.empty()) return options;
-  std::string number = arguments.weld;
+  options.empty_frames = gaps.empty();
+  if (gaps == "hold") options.gaps = Gaps::kHold;
+  if (gaps == "skip") options.gaps = Gaps::kSkip;
+  if (weld.empty()) return options;
+  std::string number = weld;
   options.weld.of_diagonal = number.ends_with('%');
   if (options.weld.of_diagonal) number.pop_back();
   const NumberRange from_zero{.least = 0};
   options.weld.value = parse_number("--weld", number, from_zero) / (options.weld.of_diagonal ? 100 : 1);
   return options;
 }
-
-}  // namespace
 
 void add_skeleton_option(CLI::App& command, std::string& skeleton) {
   command.add_option("--skeleton", skeleton,
@@ -99,7 +101,7 @@ OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
   spec.open_ended = open_ended;
-  spec.sequence = sequence_options(arguments);
+  spec.sequence = sequence_options(arguments.gaps, arguments.weld);
   spec.cache_up = arguments.cache_up;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);

@@ -31,6 +31,11 @@ struct InputArguments {
 /// beside these inputs.
 void add_input_options(CLI::App& command, InputArguments& arguments, const std::string& others = "");
 
+/// Declares --gaps and --weld alone.
+void add_sequence_options(CLI::App& command, std::string& gaps, std::string& weld);
+/// What they say, as typed. Throws ToolError (kUsage).
+SequenceOptions sequence_options(const std::string& gaps, const std::string& weld);
+
 /// Declares --skeleton alone.
 void add_skeleton_option(CLI::App& command, std::string& skeleton);
 

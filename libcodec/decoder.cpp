@@ -31,6 +31,8 @@ std::optional<Decoder::Event> Decoder::State::step() {
     case ChunkReader::Event::kMetadata:
       metadata = reader.take_metadata();
       return Event::kMetadata;
+    case ChunkReader::Event::kData:
+      return Event::kData;
     case ChunkReader::Event::kMesh:
       return take_mesh();
     case ChunkReader::Event::kPlan:
@@ -275,6 +277,9 @@ const StreamHead& Decoder::head() const {
 }
 const Metadata& Decoder::metadata() const {
   return state_->metadata;
+}
+const CodedData& Decoder::data() const {
+  return state_->reader.data();
 }
 const Mesh& Decoder::mesh() const {
   return state_->mesh->coded.drawn();

@@ -11,6 +11,8 @@
 #include "source/gop_cutter.hpp"
 #include "source/source_checks.hpp"
 
+#include <algorithm>
+#include <deque>
 #include <memory>
 #include <new>
 #include <string>
@@ -115,6 +117,7 @@ class Encoder::State {
       std::vector<float> kept;
       if (with_joints_) kept.assign(joints.begin(), joints.end());
       gop_box_ = around(gop_box_, frame_box);
+      report_.vertex_frames += stretch_->mesh.vertex_count;
       std::optional<GopContent> gop =
           cutter_->add(FramePositions(positions.begin(), positions.end()), std::move(kept));
       if (gop) {
@@ -135,6 +138,7 @@ class Encoder::State {
     if (!status.ok()) return status.error();
     finished_ = true;
     report_.bytes = writer_.offset();
+    report_.meshes = writer_.meshes();
     return report_;
   }
 
@@ -156,10 +160,13 @@ class Encoder::State {
     if (Status status = stretch_ ? Status() : check_levels(options_->levels.get(), mesh); !status.ok())
       return status;
     if (stretch_ && (mesh.vertex_count > limits_.vertices || mesh.faces.size() > limits_.faces)) {
-      return Error{ErrorCode::kLimitExceeded,
-                   "the mesh has " + std::to_string(mesh.vertex_count) + " vertices and " +
-                       std::to_string(mesh.faces.size()) + " faces, the head declares " +
-                       std::to_string(limits_.vertices) + " and " + std::to_string(limits_.faces)};
+      return Error{
+          ErrorCode::kLimitExceeded,
+          "from frame " + std::to_string(frames_added()) + " on the mesh has " +
+              std::to_string(mesh.vertex_count) + " vertices and " + std::to_string(mesh.faces.size()) +
+              " faces, the head declares " + std::to_string(limits_.vertices) + " and " +
+              std::to_string(limits_.faces) +
+              ": say before what the largest will have (--max-vertices and --max-faces of the tool)"};
     }
     if (Status status = check_properties(properties, mesh, options_->attribute_bits); !status.ok())
       return status;
@@ -209,21 +216,35 @@ class Encoder::State {
 
   std::uint64_t frames_added() const { return frames_before_ + (cutter_ ? cutter_->frames() : 0); }
 
-  Status begin_stretch(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties) {
-    auto stretch = std::make_shared<Stretch>(
-        mesh, skeleton, with_settled_bits(properties, options_->attribute_bits), options_);
+  Status begin_stretch(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& given) {
+    MeshProperties properties = with_settled_bits(given, options_->attribute_bits);
+    std::shared_ptr<Stretch> stretch = in_force(mesh, skeleton, properties);
+    const bool is_known = stretch != nullptr;
+    if (!is_known) stretch = std::make_shared<Stretch>(mesh, skeleton, std::move(properties), options_);
     if (stretch_) {
       if (Status status = flush(); !status.ok()) return status;
     } else {
-      limits_ = limits_for(mesh, *options_, property_bytes_of(properties, mesh));
+      limits_ = limits_for(mesh, *options_, property_bytes_of(stretch->properties, mesh));
       report_.vertices = mesh.vertex_count;
-      if (Status status = writer_.write_start(limits_, options_->metadata); !status.ok()) return status;
+      if (Status status = writer_.write_start(limits_, options_->metadata, options_->data); !status.ok())
+        return status;
     }
     frames_before_ = frames_added();
     stretch_ = std::move(stretch);
     cutter_.emplace(frames_at_once(*options_), options_->importance.low_delay);
-    mesh_written_ = false;
-    return needs_shape(*options_) ? Status() : write_mesh({});
+    mesh_written_ = is_known;
+    return is_known || needs_shape(*options_) ? Status() : write_mesh({});
+  }
+
+  /// The stretch of the same mesh and joints whose mesh a decoder still knows; null where there is none.
+  std::shared_ptr<Stretch> in_force(const Mesh& mesh, const Skeleton& skeleton,
+                                    const MeshProperties& properties) const {
+    const auto same = [&](const std::shared_ptr<Stretch>& known) {
+      return known->mesh == mesh && known->skeleton == skeleton && known->properties == properties &&
+             writer_.mesh_in_force(known->encoded.mesh.coded.id);
+    };
+    const auto known = std::find_if(known_.begin(), known_.end(), same);
+    return known == known_.end() ? nullptr : *known;
   }
 
   /// With a reference shape it is written with the first frame, which the shape is made of.
@@ -243,6 +264,8 @@ class Encoder::State {
     if (payload.size() > limits_.mesh_bytes)
       return Error{ErrorCode::kLimitExceeded, "the mesh is coded in more bytes than the head declares"};
     mesh_written_ = true;
+    known_.push_back(stretch_);
+    if (known_.size() > limits_.meshes) known_.pop_front();
     return writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, payload));
   }
 
@@ -318,6 +341,7 @@ class Encoder::State {
   StreamLimits limits_;
   EncodeReport report_;
   std::shared_ptr<Stretch> stretch_;
+  std::deque<std::shared_ptr<Stretch>> known_;  ///< the latest whose meshes were written
   bool mesh_written_ = false;
   std::optional<GopCutter> cutter_;
   BoundingBox gop_box_;
@@ -342,76 +366,6 @@ Status Encoder::add_frame(std::span<const float> positions, std::span<const floa
 
 Result<EncodeReport> Encoder::finish() {
   return state_->finish();
-}
-
-namespace {
-
-/// The box of the whole sequence; leaves the source at its first frame. Empty when the source can be read
-/// only once.
-Result<std::optional<BoundingBox>> scan_box(FrameSource& source) {
-  if (!source.rewind()) return std::optional<BoundingBox>();
-  BoundingBox box;
-  FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
-  for (std::uint64_t number = 0;; ++number) {
-    const Result<bool> read = read_checked(source, frame, number);
-    if (!read) return read.error();
-    if (!*read) break;
-    box.extend(frame);
-  }
-  if (box.empty()) return invalid_input("the sequence has no frames");
-  if (!source.rewind()) return Error{ErrorCode::kIo, "the input cannot be read a second time"};
-  return std::optional(box);
-}
-
-Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
-                              const EncodeProgress& progress) {
-  if (needs_box(options)) {
-    const Result<std::optional<BoundingBox>> box = scan_box(source);
-    if (!box) return box.error();
-    if (!options.box) options.box = *box;
-  }
-  if (options.max_error) {
-    if (Status status = resolve_max_error(options); !status.ok()) return status.error();
-  }
-  if (const std::optional<std::uint64_t> frames = source.frame_count()) {
-    options.period_frames =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(*frames, 1, frames_at_once(options)));
-  }
-  options.metadata.merge(source.metadata());
-  EncodeProgress with_total;
-  if (progress) {
-    with_total = [&progress, total = source.frame_count()](
-                     std::uint64_t frames, std::optional<std::uint64_t>) { progress(frames, total); };
-  }
-  Encoder encoder(std::move(options), sink, std::move(with_total));
-  if (Status status = encoder.set_mesh(source.mesh(), source.skeleton(), source.properties()); !status.ok())
-    return status.error();
-  FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
-  for (;;) {
-    const Result<bool> read = source.read_frame(frame);
-    if (!read) return read.error();
-    if (!*read) return encoder.finish();
-    if (Status status = encoder.add_frame(frame, source.joint_positions()); !status.ok())
-      return status.error();
-  }
-}
-
-}  // namespace
-
-Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
-                            const EncodeProgress& progress) {
-  if (Status status = check_options(options); !status.ok()) return status.error();
-  if (Status status = check_mesh(source.mesh()); !status.ok()) return status.error();
-  if (Status status = check_properties(source.properties(), source.mesh(), options.attribute_bits);
-      !status.ok())
-    return status.error();
-  if (Status status = check_importance(options.importance, source.mesh(), source.skeleton()); !status.ok())
-    return status.error();
-  try {
-    return push_all(source, options, sink, progress);
-  } catch (const std::bad_alloc&) {
-    return no_memory();
-  }
 }
 
 }  // namespace tvg

@@ -7,9 +7,9 @@ set -euo pipefail
 build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libopenmesh-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev libglfw3-dev libimgui-dev libepoxy-dev libegl-dev
   libfontconfig-dev libgl1-mesa-dri libpng-dev libcurl4-openssl-dev libcpp-httplib-dev fonts-dejavu-core libassimp-dev
-  libtinygltf-dev libmeshoptimizer-dev)
+  libtinygltf-dev libmeshoptimizer-dev libzstd-dev)
 test=(ffmpeg nginx-light xvfb assimp-testmodels python3)
-bench=(libbenchmark-dev libdraco-dev libzstd-dev)
+bench=(libbenchmark-dev libdraco-dev)
 check=(clang clang-format clang-tidy libclang-rt-14-dev)
 # Without g++-multilib, which Debian does not let stand beside compilers for other machines.
 portability=(cmake g++ ninja-build pkg-config libxxhash-dev clang g++-12-multilib g++-aarch64-linux-gnu

@@ -68,7 +68,7 @@ Result<bool> StreamSource::read_frame(std::span<float> positions) {
   }
 }
 
-bool StreamSource::go_on_with_next_mesh() {
+Result<bool> StreamSource::begin_next_mesh() {
   if (!changed_) return false;
   changed_ = false;
   mesh_ = reader_->decoder().mesh();
@@ -77,6 +77,7 @@ bool StreamSource::go_on_with_next_mesh() {
 
 bool StreamSource::rewind() {
   if (!reader_->size()) return false;
+  changed_ = false;
   open();
   return true;
 }

@@ -1,5 +1,4 @@
 #pragma once
-#include "tool/mesh_changes.hpp"
 #include "tool/stream_reader.hpp"
 
 #include <memory>
@@ -13,8 +12,8 @@ namespace tvg::cli {
 bool is_stream_file(const std::string& path);
 
 /// The frames of a .tvg as a source. A damaged stream yields an error, whose message names the file; so does
-/// another mesh, with which go_on_with_next_mesh() goes on.
-class StreamSource final : public FrameSource, public MeshChanges {
+/// another mesh, with which begin_next_mesh() goes on.
+class StreamSource final : public FrameSource {
  public:
   /// Reads up to the mesh. Throws ToolError when the stream cannot be opened or has no mesh.
   explicit StreamSource(std::string path);
@@ -23,8 +22,9 @@ class StreamSource final : public FrameSource, public MeshChanges {
   Metadata metadata() const override { return reader_->decoder().metadata(); }
   std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
   Result<bool> read_frame(std::span<float> positions) override;
+  Result<bool> begin_next_mesh() override;
+  bool mesh_may_change() const override { return true; }
   bool rewind() override;
-  bool go_on_with_next_mesh() override;
 
  private:
   void open();

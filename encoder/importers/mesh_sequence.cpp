@@ -10,6 +10,8 @@ namespace tvg::cli {
 
 namespace {
 
+constexpr std::size_t kMostMeshesKnown = 16;
+
 /// What is to be said of a mesh that was read, each with its file.
 std::vector<std::string> notes_on(const std::string& path, const MeshFile& mesh) {
   std::vector<std::string> notes;
@@ -53,35 +55,101 @@ MeshSequenceSource::MeshSequenceSource(std::vector<std::string> files, const Seq
   begin_stretch();
 }
 
-/// Reads the mesh of the file that comes next.
+/// Begins with the mesh of the file that comes next.
 void MeshSequenceSource::begin_stretch() {
-  for (stretch_ = next_;; ++stretch_) {
-    current_.origin = options_.origin;
+  last_.clear();
+  stretch_ = next_;
+  const bool is_first = known_ == nullptr;
+  if (!load_next_mesh()) return;
+  // What the first file says of the origin holds for all.
+  options_.origin = current_.origin.value_or(Origin{});
+  const std::string& file = files_[stretch_];
+  if (is_first) notes_ = notes_on(file, current_);
+  if (format_ == MeshFormat::kStl) {
+    std::vector<std::string> notes = look_through_stl(file);
+    if (is_first) notes_.insert(notes_.end(), notes.begin(), notes.end());
+    apply_weld(stl_.weld(), current_);
+    loaded_.reset();
+  }
+  if (name_.empty()) name_ = current_.name;
+  know_mesh();
+}
+
+/// Goes on to the next file that has a mesh; false where what comes shows nothing.
+bool MeshSequenceSource::load_next_mesh() {
+  for (;; ++stretch_) {
+    next_ = stretch_;
     try {
-      read_located_mesh(files_[stretch_], format_, buffer_, current_);
-      break;
+      load(stretch_);
+      return true;
     } catch (const EmptyInputError& empty) {
       const bool is_last = stretch_ + 1 == files_.size();
-      next_ = stretch_;
+      if (options_.empty_frames && files_.size() > 1) {
+        begin_empty_stretch(empty.what());
+        return false;
+      }
       if (options_.gaps != Gaps::kSkip || is_last) take_empty_frame(empty.what());
     }
   }
-  next_ = stretch_;
-  mesh_file_ = files_[stretch_];
-  // What the first file says of the origin holds for all.
-  options_.origin = current_.origin.value_or(Origin{});
-  notes_ = notes_on(mesh_file_, current_);
-  if (format_ == MeshFormat::kStl) {
-    look_through_stl(mesh_file_);
-    apply_weld(stl_.weld(), current_);
-  }
-  mesh_ = {static_cast<std::uint32_t>(current_.vertex_count()), current_.faces};
-  if (name_.empty()) name_ = current_.name;
-  order_ = FaceOrder(current_.faces, current_.polygons);
-  last_.clear();
 }
 
-void MeshSequenceSource::look_through_stl(const std::string& first) {
+/// The mesh that was read is the present one; one that was met before stays as it was.
+void MeshSequenceSource::know_mesh() {
+  const auto same = [this](const std::shared_ptr<const KnownMesh>& seen) {
+    return !seen->shows_nothing && seen->mesh.vertex_count == current_.vertex_count() &&
+           seen->order.difference(current_, seen->file).empty();
+  };
+  const auto seen = std::find_if(seen_.rbegin(), seen_.rend(), same);
+  if (seen != seen_.rend()) {
+    known_ = *seen;
+    return;
+  }
+  known_ = std::make_shared<const KnownMesh>(
+      KnownMesh{{static_cast<std::uint32_t>(current_.vertex_count()), current_.faces},
+                FaceOrder(current_.faces, current_.polygons),
+                files_[stretch_],
+                false});
+  seen_.push_back(known_);
+  if (seen_.size() > kMostMeshesKnown) seen_.pop_front();
+}
+
+/// Frames that show nothing have one vertex, where the frame before had its first, so that it lies within
+/// the box of the others.
+void MeshSequenceSource::begin_empty_stretch(const std::string& what) {
+  last_ = place_of_nothing();
+  if (last_.empty())
+    throw ImportError(ErrorCode::kInvalidInput, what + ", and no other file of the sequence has any");
+  known_ = std::make_shared<const KnownMesh>(KnownMesh{{1, {}}, FaceOrder(), files_[stretch_], true});
+}
+
+/// Empty where no frame shows anything.
+std::vector<float> MeshSequenceSource::place_of_nothing() {
+  if (place_.empty()) {
+    for (std::size_t file = stretch_ + 1; file < files_.size() && place_.empty(); ++file) {
+      try {
+        load(file);
+        if (!options_.origin) options_.origin = current_.origin.value_or(Origin{});
+        place_.assign(current_.positions.begin(), current_.positions.begin() + 3);
+      } catch (const EmptyInputError&) {
+        continue;
+      }
+    }
+  }
+  return place_;
+}
+
+/// Reads a file, unless it was the last that was read.
+bool MeshSequenceSource::load(std::size_t file) {
+  if (loaded_ == file) return false;
+  loaded_.reset();
+  current_.origin = options_.origin;
+  read_located_mesh(files_[file], format_, buffer_, current_);
+  loaded_ = file;
+  return true;
+}
+
+/// What of the files that follow belongs to the mesh of the first; notes on that.
+std::vector<std::string> MeshSequenceSource::look_through_stl(const std::string& first) {
   stl_ = StlWeld(current_.positions, options_.weld);
   std::string torn_in;
   MeshFile mesh;
@@ -99,15 +167,16 @@ void MeshSequenceSource::look_through_stl(const std::string& first) {
     if (torn_in.empty() && stl_.split_vertices() > 0) torn_in = files_[file];
   }
   stl_.rewind();
-  notes_.push_back(weld_note(first, stl_));
+  std::vector<std::string> notes = {weld_note(first, stl_)};
   if (!torn_in.empty()) {
-    notes_.push_back(fmt::format(
+    notes.push_back(fmt::format(
         "{} of them share a place in {} and come apart later, first in {} (--weld TOLERANCE joins what lies "
         "closer)",
         stl_.split_vertices(), first, torn_in));
   }
   if (stl_.reordered())
-    notes_.push_back("the triangles stand in another order in some of the files, and were matched");
+    notes.push_back("the triangles stand in another order in some of the files, and were matched");
+  return notes;
 }
 
 Metadata MeshSequenceSource::metadata() const {
@@ -143,6 +212,10 @@ bool MeshSequenceSource::read_next(std::span<float> positions) {
       read_positions(files_[next_], positions);
       last_.assign(positions.begin(), positions.end());
     } catch (const EmptyInputError& empty) {
+      if (options_.empty_frames && files_.size() > 1) {
+        read_nothing(files_[next_], empty.what(), positions);
+        return true;
+      }
       take_empty_frame(empty.what());
       if (options_.gaps == Gaps::kSkip) {
         ++next_;
@@ -171,21 +244,33 @@ void MeshSequenceSource::take_empty_frame(const std::string& what) {
                                                           : "it has no faces and is left out");
 }
 
+/// A file without faces is the next frame.
+void MeshSequenceSource::read_nothing(const std::string& path, const std::string& what,
+                                      std::span<float> positions) {
+  if (!known_->shows_nothing) fail_changed(path, what.substr(std::min(what.size(), path.size() + 1)));
+  std::copy(last_.begin(), last_.end(), positions.begin());
+  later_->add(path, "it has no faces: the frame shows nothing");
+  ++next_;
+}
+
 void MeshSequenceSource::read_positions(const std::string& path, std::span<float> positions) {
-  current_.origin = options_.origin;
-  read_located_mesh(path, format_, buffer_, current_);
+  load(next_);
+  if (known_->shows_nothing) fail_changed(path, "has faces where " + known_->file + " has none");
   if (format_ == MeshFormat::kStl) {
     if (next_ == stretch_) stl_.rewind();
-    const std::string other = stl_.apply(current_, mesh_file_);
-    if (!other.empty()) fail_changed(path, other);
+    const std::string other = stl_.apply(current_, known_->file);
+    if (!other.empty()) {
+      loaded_.reset();
+      fail_changed(path, other);
+    }
   }
-  if (current_.vertex_count() != mesh_.vertex_count) {
-    fail_changed(path, fmt::format("has {} vertices where {} has {}", current_.vertex_count(), mesh_file_,
-                                   mesh_.vertex_count));
+  if (current_.vertex_count() != known_->mesh.vertex_count) {
+    fail_changed(path, fmt::format("has {} vertices where {} has {}", current_.vertex_count(), known_->file,
+                                   known_->mesh.vertex_count));
   }
   // Of STL the facets are matched, and their corners are all there is.
   if (format_ != MeshFormat::kStl) {
-    const std::string difference = order_.difference(current_, mesh_file_);
+    const std::string difference = known_->order.difference(current_, known_->file);
     if (!difference.empty()) fail_changed(path, difference);
   }
   if (!last_.empty()) {
@@ -194,8 +279,10 @@ void MeshSequenceSource::read_positions(const std::string& path, std::span<float
       std::copy_n(last_.begin() + place, 3, current_.positions.begin() + place);
     }
   }
+  loaded_.reset();
   std::copy(current_.positions.begin(), current_.positions.end(), positions.begin());
-  if (next_ == stretch_) return;
+  place_.assign(current_.positions.begin(), current_.positions.begin() + 3);
+  if (next_ == 0) return;
   for (const std::string& note : current_.notes) later_->add(path, note);
 }
 
@@ -204,29 +291,44 @@ void MeshSequenceSource::fail_changed(const std::string& path, const std::string
   const std::uint64_t frame = first_frame_ + next_;
   throw ImportError(
       ErrorCode::kInvalidInput,
-      fmt::format("{} (frame {}) {}. One mesh holds for a whole sequence: encode the frames {}-{} and "
-                  "those from {} on separately (--frames) and join the streams with `tvg join`",
-                  path, frame, difference, first_frame_, frame - 1, frame));
+      fmt::format("{} (frame {}) {}. The mesh is another one from there on, and here one has to hold for "
+                  "all frames: `--frames {}-{}` takes those of the one before",
+                  path, frame, difference, first_frame_ + stretch_, frame - 1));
 }
 
-bool MeshSequenceSource::go_on_with_next_mesh() {
+Result<bool> MeshSequenceSource::begin_next_mesh() {
   if (!changed_) return false;
   changed_ = false;
-  begin_stretch();
+  try {
+    begin_stretch();
+  } catch (const ImportError& error) {
+    return error.as_value();
+  }
   return true;
 }
 
 Status MeshSequenceSource::skip_frames(std::uint64_t count) {
   // Which file is how many frames on, and where triangles stand, only reading tells.
-  if (options_.gaps == Gaps::kSkip || stl_.reordered()) return FrameSource::skip_frames(count);
+  if (options_.gaps != Gaps::kRefuse || stl_.reordered()) return FrameSource::skip_frames(count);
   next_ += count;
+  loaded_.reset();
   return {};
 }
 
 bool MeshSequenceSource::rewind() {
   next_ = 0;
-  last_.clear();
-  if (stretch_ == 0) return true;
+  place_.clear();
+  changed_ = false;
+  loaded_.reset();
+  // So that whoever reads it a second time is told the same.
+  seen_.clear();
+  if (stretch_ == 0) {
+    if (!known_->shows_nothing) {
+      seen_.push_back(known_);
+      last_.clear();
+    }
+    return true;
+  }
   try {
     begin_stretch();
   } catch (const ImportError&) {

@@ -3,9 +3,10 @@
 #include "encoder/importers/mesh_file.hpp"
 #include "encoder/importers/read_notes.hpp"
 #include "encoder/importers/stl_weld.hpp"
-#include "tool/mesh_changes.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ enum class Gaps {
 /// How a sequence of mesh files is read.
 struct SequenceOptions {
   Gaps gaps = Gaps::kRefuse;
+  /// A file without faces is a frame that shows nothing: a mesh of one vertex and no faces. Else it is a gap.
+  bool empty_frames = true;
   WeldTolerance weld = {};
   /// What coordinates are relative to; (0, 0, 0): to nothing. Where it is absent, the first file tells
   /// (read_located_mesh()).
@@ -40,23 +43,25 @@ struct WeldedMesh {
 /// Reads a mesh file by itself and, for STL, welds it.
 WeldedMesh read_welded_mesh(const std::string& path, const WeldTolerance& tolerance);
 
-/// Frames of mesh files with one connectivity, that of the first, read one file at a time. Of STL, all files
-/// are read once before, to see what hangs together in every frame.
-class MeshSequenceSource final : public FrameSource, public MeshChanges {
+/// Frames of mesh files, read one file at a time. They may have meshes of their own: a mesh that was among
+/// the last few is known again, in whatever order its faces stand. Of STL, the files are read once before as
+/// far as the mesh stays, to see what hangs together in every frame.
+class MeshSequenceSource final : public FrameSource {
  public:
   /// The first frame has the number `first_frame` in messages. Throws ImportError where the first file cannot
   /// be read.
   MeshSequenceSource(std::vector<std::string> files, const SequenceOptions& options,
                      std::uint64_t first_frame);
 
-  const Mesh& mesh() const override { return mesh_; }
+  const Mesh& mesh() const override { return known_->mesh; }
   Metadata metadata() const override;
   /// Unknown where frames may be left out.
   std::optional<std::uint64_t> frame_count() const override;
   Result<bool> read_frame(std::span<float> positions) override;
   Status skip_frames(std::uint64_t count) override;
+  Result<bool> begin_next_mesh() override;
+  bool mesh_may_change() const override { return files_.size() > 1; }
   bool rewind() override;
-  bool go_on_with_next_mesh() override;
 
   /// On the first file, for the user.
   const std::vector<std::string>& notes() const { return notes_; }
@@ -64,28 +69,43 @@ class MeshSequenceSource final : public FrameSource, public MeshChanges {
   const std::shared_ptr<ReadNotes>& later_notes() const { return later_; }
 
  private:
+  /// A mesh that was met.
+  struct KnownMesh {
+    Mesh mesh;
+    FaceOrder order;
+    std::string file;
+    bool shows_nothing = false;
+  };
+
   void begin_stretch();
-  void look_through_stl(const std::string& first);
+  bool load_next_mesh();
+  void know_mesh();
+  void begin_empty_stretch(const std::string& what);
+  bool load(std::size_t file);
+  std::vector<float> place_of_nothing();
+  std::vector<std::string> look_through_stl(const std::string& first);
   bool read_next(std::span<float> positions);
   void read_positions(const std::string& path, std::span<float> positions);
   void take_empty_frame(const std::string& what);
+  void read_nothing(const std::string& path, const std::string& what, std::span<float> positions);
   [[noreturn]] void fail_changed(const std::string& path, const std::string& difference);
 
   std::vector<std::string> files_;
   SequenceOptions options_;
   std::uint64_t first_frame_;
   MeshFormat format_;
-  Mesh mesh_;
+  std::shared_ptr<const KnownMesh> known_;             // the present one
+  std::deque<std::shared_ptr<const KnownMesh>> seen_;  // the last few, the latest behind
   std::string name_;
-  std::string mesh_file_;  // that the mesh is of
-  FaceOrder order_;
   StlWeld stl_;
   std::size_t stretch_ = 0;  // the file that the present mesh begins with
   std::size_t next_ = 0;
-  std::vector<float> last_;  // positions of the frame before, in this stretch
-  bool changed_ = false;     // the last error was another mesh
+  std::vector<float> last_;   // positions of the frame before, in this stretch
+  std::vector<float> place_;  // of the last frame that shows something: its first vertex
+  bool changed_ = false;      // the last error was another mesh
   std::string buffer_;
   MeshFile current_;
+  std::optional<std::size_t> loaded_;  // the file that current_ is as it was read
   std::vector<std::string> notes_;
   std::shared_ptr<ReadNotes> later_ = std::make_shared<ReadNotes>();
 };

@@ -94,6 +94,16 @@ class SkeletonReader {
   const json& document_;
 };
 
+/// Whether the skin, where there is one, is that of the mesh.
+bool fits(const Skeleton& skeleton, const Mesh& mesh) {
+  return skeleton.heaviest_joint.empty() || skeleton.heaviest_joint.size() == mesh.vertex_count;
+}
+
+std::string misfit(const std::string& file, const Skeleton& skeleton, const Mesh& mesh) {
+  return fmt::format("{} is for {} vertices, and the mesh has {}", file, skeleton.heaviest_joint.size(),
+                     mesh.vertex_count);
+}
+
 class JointedSource final : public SourceDecorator {
  public:
   JointedSource(std::unique_ptr<FrameSource> source, JointTracks tracks, std::string file,
@@ -120,6 +130,12 @@ class JointedSource final : public SourceDecorator {
     }
     ++read_;
     return true;
+  }
+  Result<bool> begin_next_mesh() override {
+    Result<bool> begun = SourceDecorator::begin_next_mesh();
+    if (begun && *begun && !fits(tracks_.skeleton, mesh()))
+      return ImportError(ErrorCode::kInvalidInput, misfit(file_, tracks_.skeleton, mesh())).as_value();
+    return begun;
   }
   Status skip_frames(std::uint64_t count) override {
     read_ += count;
@@ -157,11 +173,8 @@ JointTracks parse_skeleton(const std::string& file, std::string_view text) {
 
 std::unique_ptr<FrameSource> with_joints(std::unique_ptr<FrameSource> source, JointTracks tracks,
                                          const std::string& file, std::uint64_t first_frame) {
-  const std::size_t skinned = tracks.skeleton.heaviest_joint.size();
-  if (skinned != 0 && skinned != source->mesh().vertex_count) {
-    throw ImportError(ErrorCode::kInvalidInput, fmt::format("{} is for {} vertices, and the mesh has {}",
-                                                            file, skinned, source->mesh().vertex_count));
-  }
+  if (!fits(tracks.skeleton, source->mesh()))
+    throw ImportError(ErrorCode::kInvalidInput, misfit(file, tracks.skeleton, source->mesh()));
   const std::optional<std::uint64_t> frames = source->frame_count();
   if (frames && first_frame + *frames > tracks.frames.size()) {
     throw ImportError(ErrorCode::kInvalidInput, fmt::format("{} has {} frames, and {} are needed", file,

@@ -8,11 +8,13 @@ namespace tvg::cli {
 
 namespace {
 
-/// The next frame, of a loop from its beginning again; `any`: whether there was one before.
-Result<bool> read_on(FrameSource& source, const LiveInput& input, bool any, FramePositions& frame) {
-  Result<bool> read = source.read_frame(frame);
-  if (read && !*read && input.loop && any && source.rewind()) return source.read_frame(frame);
-  return read;
+/// What comes next, of a loop from its beginning again; `shown` is the mesh that the encoder knows of.
+Result<SourceStep> read_on(FrameSource& source, const LiveInput& input, const Mesh& shown,
+                           FramePositions& frame) {
+  Result<SourceStep> read = read_step(source, frame);
+  if (!read || *read != SourceStep::kEnd || !input.loop || shown.vertex_count == 0 || !source.rewind())
+    return read;
+  return source.mesh() == shown ? read_step(source, frame) : SourceStep::kMesh;
 }
 
 }  // namespace
@@ -21,20 +23,26 @@ Result<LiveReport> encode_live(FrameSource& source, EncodeOptions options, const
                                const ByteSink& sink, const EncodeProgress& progress) {
   options.metadata.merge(source.metadata());
   Encoder encoder(std::move(options), sink, progress);
-  if (Status status = encoder.set_mesh(source.mesh(), source.skeleton()); !status.ok()) return status.error();
   LiveReport report;
-  FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
+  Mesh shown;  // once it has a frame
+  FramePositions frame;
   Pacer pacer(input.pace);
-  for (bool any = false;; any = true) {
-    pacer.wait_for_next();
-    const Result<bool> read = read_on(source, input, any, frame);
-    if (!read) {
-      if (!input.open_ended || read.error().code != ErrorCode::kTruncated) return read.error();
-      report.cut_short = read.error().message;
-    }
-    if (!read || !*read) break;
-    if (Status status = encoder.add_frame(frame, source.joint_positions()); !status.ok())
-      return status.error();
+  bool waited = false;  // for the frame that comes next
+  for (Result<SourceStep> step = SourceStep::kMesh; *step != SourceStep::kEnd;) {
+    const bool is_mesh = *step == SourceStep::kMesh;
+    Status status = is_mesh ? encoder.set_mesh(source.mesh(), source.skeleton(), source.properties())
+                            : encoder.add_frame(frame, source.joint_positions());
+    if (!status.ok()) return status.error();
+    if (!is_mesh && shown.vertex_count == 0) shown = source.mesh();
+    if (is_mesh) shown = {};
+    if (!is_mesh) waited = false;
+    // A mesh takes no time of its own.
+    if (!std::exchange(waited, true)) pacer.wait_for_next();
+    step = read_on(source, input, shown, frame);
+    if (step) continue;
+    if (!input.open_ended || step.error().code != ErrorCode::kTruncated) return step.error();
+    report.cut_short = step.error().message;
+    break;
   }
   const Result<EncodeReport> made = encoder.finish();
   if (!made) return made.error();

@@ -164,7 +164,7 @@ tvg_event tvg_decoder_poll(tvg_decoder* decoder) {
   try {
     for (;;) {
       const Decoder::Event event = decoder->decoder.poll();
-      if (event != Decoder::Event::kChunk) return event_of(*decoder, event);
+      if (event != Decoder::Event::kChunk && event != Decoder::Event::kData) return event_of(*decoder, event);
     }
   } catch (const std::exception&) {
     fail(*decoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");

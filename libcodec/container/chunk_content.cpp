@@ -29,10 +29,8 @@ std::optional<ChunkReader::Event> ChunkReader::use_payload(Bytes payload) {
       return Event::kMetadata;
     }
     case ChunkKind::kData: {
-      const Status status = check_data(payload);
-      if (!status.ok()) return report(status.error());
-      consume(std::exchange(used_, std::size_t{0}));
-      return std::nullopt;
+      const Fault fault = read_data(payload, data_);
+      return fault ? report(error_of(fault)) : Event::kData;
     }
     case ChunkKind::kMesh:
       return use_mesh(payload);

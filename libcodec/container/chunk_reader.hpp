@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include <tvg/data.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg {
@@ -34,6 +35,7 @@ class ChunkReader {
     kChunk,     ///< a chunk begins: chunk(), chunk_offset()
     kHead,      ///< head()
     kMetadata,  ///< metadata()
+    kData,      ///< data()
     kMesh,      ///< a mesh with counts that the head allows: mesh(), mesh_id(), content() is the payload
     kPlan,      ///< planes of a mesh that can be used, in a known mode: plan(), plan_id(), content()
     kGop,       ///< a GOP whose mesh and planes are in force, in a known mode: gop(), content() is the header
@@ -95,6 +97,9 @@ class ChunkReader {
   const StreamHead& head() const { return head_; }
   /// Hands out what kMetadata tells of; empty from then on.
   Metadata take_metadata() { return std::exchange(metadata_, {}); }
+  /// Name and bytes lie in those given out: they are valid no longer than content().
+  const CodedData& data() const { return data_; }
+  std::uint32_t data_id() const { return payload_checksum_; }
   /// Its parts lie in the bytes given out: they are valid no longer than content().
   const MeshLayout& mesh() const { return mesh_; }
   std::uint32_t mesh_id() const { return payload_checksum_; }
@@ -206,6 +211,7 @@ class ChunkReader {
 
   StreamHead head_;
   Metadata metadata_;
+  CodedData data_;
   ChunkHeader chunk_{};
   ChunkKind kind_ = ChunkKind::kHead;
   std::uint64_t chunk_offset_ = 0;

@@ -3,6 +3,7 @@
 #include "base/checksum.hpp"
 #include "base/stream_error.hpp"
 #include "container/chunk.hpp"
+#include "container/data_payload.hpp"
 #include "container/head.hpp"
 #include "container/index.hpp"
 #include "container/metadata.hpp"
@@ -55,12 +56,19 @@ Status StreamWriter::write(Bytes bytes) {
   return sink_(bytes);
 }
 
-Status StreamWriter::write_start(const StreamLimits& limits, const Metadata& metadata) {
+Status StreamWriter::write_start(const StreamLimits& limits, const Metadata& metadata,
+                                 std::span<const NamedData> data) {
   limits_ = limits;
   if (Status status = write(kSignature); !status.ok()) return status;
   if (Status status = write(write_chunk(kHeadChunk, false, write_head(limits))); !status.ok()) return status;
-  if (metadata.empty()) return {};
-  return write(write_chunk(kMetadataChunk, true, write_metadata(metadata)));
+  if (!metadata.empty()) {
+    if (Status status = write(write_chunk(kMetadataChunk, true, write_metadata(metadata))); !status.ok())
+      return status;
+  }
+  for (const NamedData& one : data) {
+    if (Status status = write(write_chunk(kDataChunk, true, write_data(one))); !status.ok()) return status;
+  }
+  return {};
 }
 
 Status StreamWriter::write_mesh_chunk(Bytes chunk) {

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include <tvg/properties.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg {
@@ -27,8 +29,9 @@ class StreamWriter {
   explicit StreamWriter(std::function<Status(Bytes)> sink) : sink_(std::move(sink)) {}
 
   Status write(Bytes bytes);
-  /// Signature, head and, where there are any, metadata.
-  Status write_start(const StreamLimits& limits, const Metadata& metadata);
+  /// Signature, head and, where there are any, metadata and free-form data.
+  Status write_start(const StreamLimits& limits, const Metadata& metadata,
+                     std::span<const NamedData> data = {});
   /// Writes a mesh unless it is in force already; `chunk` is all of its chunk. kInvalidInput where another
   /// mesh of the same name is in force.
   Status write_mesh_chunk(Bytes chunk);
@@ -42,6 +45,8 @@ class StreamWriter {
   Status write_end();
 
   std::uint64_t offset() const { return offset_; }
+  /// Whether the mesh of this id may be named by what is written next.
+  bool mesh_in_force(std::uint32_t id) const { return meshes_.find(id) != nullptr; }
   /// Mesh chunks written.
   std::uint64_t meshes() const { return meshes_.count(); }
 

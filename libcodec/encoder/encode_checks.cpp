@@ -14,7 +14,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include <tvg/data.hpp>
 
 namespace tvg {
 
@@ -31,6 +36,17 @@ Status check_metadata(const Metadata& metadata) {
   }
   if (write_metadata(metadata).size() > kMaxMetadataPayload)
     return invalid_argument("the metadata is above 1 MiB");
+  return {};
+}
+
+Status check_data(const std::vector<NamedData>& data) {
+  std::set<std::string_view> names;
+  for (const auto& [name, bytes] : data) {
+    if (name.empty() || name.size() > kMaxDataNameBytes || !is_metadata_text(name))
+      return invalid_argument("a name of data is not 1 to 1024 bytes of text in UTF-8");
+    if (bytes.size() > kMaxDataBytes) return invalid_argument("the data '" + name + "' are above 64 MiB");
+    if (!names.insert(name).second) return invalid_argument("there are two data of the name '" + name + "'");
+  }
   return {};
 }
 
@@ -101,7 +117,18 @@ Status check_options(const EncodeOptions& options) {
         lattice_over(*options.box, options.fine_bits, options.coarse_bits, options.step);
     if (!lattice) return lattice.error();
   }
+  if (Status status = check_data(options.data); !status.ok()) return status;
   return check_metadata(options.metadata);
+}
+
+void add_data(std::vector<NamedData>& data, std::span<const NamedData> more) {
+  const std::size_t own = data.size();
+  for (const NamedData& added : more) {
+    const auto end = data.begin() + static_cast<std::ptrdiff_t>(own);
+    if (std::none_of(data.begin(), end,
+                     [&added](const NamedData& known) { return known.name == added.name; }))
+      data.push_back(added);
+  }
 }
 
 Status check_pushed(const EncodeOptions& options) {

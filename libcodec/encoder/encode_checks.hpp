@@ -33,4 +33,7 @@ Status resolve_max_error(EncodeOptions& options);
 /// with properties that take so many bytes or as many as the options say.
 StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options, std::uint64_t property_bytes);
 
+/// Adds data whose names are not there yet.
+void add_data(std::vector<NamedData>& data, std::span<const NamedData> more);
+
 }  // namespace tvg

@@ -109,12 +109,17 @@ class SurfaceComparison::Accumulator {
   Accumulator(const Mesh& original, const Mesh& other, const SurfaceSettings& settings)
       : original_(original), other_(other), settings_(settings) {}
 
+  void set_original(const Mesh& original) { original_ = Side(original); }
   void set_other(const Mesh& other) { other_ = Side(other); }
   bool measures_next() const { return settings_.stride != 0 && frames_ % settings_.stride == 0; }
 
   Status add_frame(std::span<const float> original, std::span<const float> other) {
     Status checked = check(original, other);
     if (!checked.ok()) return at_frame(frames_, checked.error());
+    if (shows_nothing()) {
+      ++frames_;
+      return {};
+    }
     box_.extend(original);
     if (measures_next()) {
       load_points(original, original_.points);
@@ -133,11 +138,14 @@ class SurfaceComparison::Accumulator {
       return invalid_argument("samples and stride of a comparison of surfaces must be at least 1");
     for (const Side* side : {&original_, &other_}) {
       if (!side->valid) return invalid_input("a face of the mesh names a vertex that does not exist");
-      if (side->mesh.faces.empty()) return invalid_input("a mesh without faces has no surface");
+      if (side->mesh.faces.empty() && !shows_nothing())
+        return invalid_input("a mesh without faces has no surface");
     }
     Status checked = check_positions(original_.mesh, original, "original");
     return checked.ok() ? check_positions(other_.mesh, other, "other") : checked;
   }
+
+  bool shows_nothing() const { return original_.mesh.faces.empty() && other_.mesh.faces.empty(); }
 
   void measure() {
     const auto directed = [this](const Side& from, const Side& to) {
@@ -195,6 +203,10 @@ SurfaceComparison::SurfaceComparison(const Mesh& original, const Mesh& other, co
 SurfaceComparison::~SurfaceComparison() = default;
 SurfaceComparison::SurfaceComparison(SurfaceComparison&&) noexcept = default;
 SurfaceComparison& SurfaceComparison::operator=(SurfaceComparison&&) noexcept = default;
+
+void SurfaceComparison::set_original(const Mesh& original) {
+  accumulator_->set_original(original);
+}
 
 void SurfaceComparison::set_other(const Mesh& other) {
   accumulator_->set_other(other);

@@ -15,14 +15,25 @@ const Skeleton& FrameSource::skeleton() const {
 }
 
 Status FrameSource::skip_frames(std::uint64_t count) {
-  FramePositions frame(3 * std::size_t{mesh().vertex_count});
-  for (; count > 0; --count) {
-    const Result<bool> read = read_frame(frame);
-    if (!read) return read.error();
-    if (!*read)
+  FramePositions frame;
+  while (count > 0) {
+    const Result<SourceStep> step = read_step(*this, frame);
+    if (!step) return step.error();
+    if (*step == SourceStep::kEnd)
       return Error{ErrorCode::kInvalidArgument, "the sequence ends before the frames to be passed over"};
+    if (*step == SourceStep::kFrame) --count;
   }
   return {};
+}
+
+Result<SourceStep> read_step(FrameSource& source, FramePositions& frame) {
+  frame.resize(3 * std::size_t{source.mesh().vertex_count});
+  const Result<bool> read = source.read_frame(frame);
+  if (read) return *read ? SourceStep::kFrame : SourceStep::kEnd;
+  const Result<bool> changed = source.begin_next_mesh();
+  if (!changed) return changed.error();
+  if (!*changed) return read.error();
+  return SourceStep::kMesh;
 }
 
 const Skeleton& SequenceSource::skeleton() const {

@@ -40,6 +40,10 @@ class Joiner {
     for (JoinInput& input : inputs) {
       readers_.emplace_back(std::move(input), options_.limits);
       if (Status status = readers_.back().begin(); !status.ok()) return status.error();
+      std::vector<std::vector<std::uint8_t>> its_data = readers_.back().take_data();
+      if (readers_.size() > 1) continue;
+      data_ = std::move(its_data);
+      data_ids_ = readers_.back().data_ids();
     }
     if (Status status = write_start(); !status.ok()) return status.error();
     for (; !readers_.empty() && !done(); readers_.pop_front()) {
@@ -69,7 +73,11 @@ class Joiner {
                    {},
                    "§4.2"};
     }
-    return writer_.write_start(limits, metadata);
+    if (Status status = writer_.write_start(limits, metadata); !status.ok()) return status;
+    for (const std::vector<std::uint8_t>& chunk : std::exchange(data_, {})) {
+      if (Status status = writer_.write(chunk); !status.ok()) return status;
+    }
+    return {};
   }
 
   Metadata merge_metadata() {
@@ -104,11 +112,20 @@ class Joiner {
       report_.frames += reader.gop_frames();
       if (progress_) progress_(report_.frames, std::nullopt);
     }
-    if (reader.chunks_passed_over() > 0) {
-      report_.notes.push_back(reader.name() + ": chunks of data or of unknown kinds are left out: " +
-                              std::to_string(reader.chunks_passed_over()));
+    const std::uint64_t left_out = reader.chunks_passed_over() + other_data(reader);
+    if (left_out > 0) {
+      report_.notes.push_back(
+          reader.name() + ": chunks of data or of unknown kinds are left out: " + std::to_string(left_out));
     }
     return {};
+  }
+
+  /// Data of an input that the result does not have.
+  std::uint64_t other_data(const JoinInputReader& reader) const {
+    const std::vector<std::uint32_t>& ids = reader.data_ids();
+    return static_cast<std::uint64_t>(std::count_if(ids.begin(), ids.end(), [this](std::uint32_t id) {
+      return std::find(data_ids_.begin(), data_ids_.end(), id) == data_ids_.end();
+    }));
   }
 
   /// Whether a GOP is to be copied; an error where a border of the frames asked for lies inside it.
@@ -143,6 +160,8 @@ class Joiner {
   ByteSink writer_sink_;  ///< appends to what the writer has written
   const EncodeProgress& progress_;
   std::deque<JoinInputReader> readers_;
+  std::vector<std::vector<std::uint8_t>> data_;  ///< chunks of the first input, until they are written
+  std::vector<std::uint32_t> data_ids_;
   std::uint64_t position_ = 0;  ///< of the next frame over all inputs
   JoinReport report_;
 };

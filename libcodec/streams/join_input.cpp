@@ -56,20 +56,21 @@ void JoinInputReader::use(ChunkReader::Event event) {
   switch (event) {
     case ChunkReader::Event::kChunk: {
       const ChunkKind kind = kind_of(reader_.chunk());
-      if (kind == ChunkKind::kAncillary || kind == ChunkKind::kData) ++chunks_passed_over_;
+      if (kind == ChunkKind::kAncillary) ++chunks_passed_over_;
       gop_start_.assign(raw.begin(), raw.end());
       break;
     }
     case ChunkReader::Event::kMetadata:
       metadata_ = reader_.take_metadata();
       break;
-    case ChunkReader::Event::kMesh:
-    case ChunkReader::Event::kPlan: {
-      std::vector<std::uint8_t> chunk(gop_start_);
-      chunk.insert(chunk.end(), raw.begin(), raw.end());
-      reader_.keep(std::make_shared<const std::vector<std::uint8_t>>(std::move(chunk)));
+    case ChunkReader::Event::kData:
+      data_ids_.push_back(reader_.data_id());
+      if (!begun_) data_.push_back(chunk_with(raw));
       break;
-    }
+    case ChunkReader::Event::kMesh:
+    case ChunkReader::Event::kPlan:
+      reader_.keep(std::make_shared<const std::vector<std::uint8_t>>(chunk_with(raw)));
+      break;
     case ChunkReader::Event::kGop:
       gop_start_.insert(gop_start_.end(), raw.begin(), raw.end());
       gop_frames_ = reader_.gop().frame_count;
@@ -79,6 +80,13 @@ void JoinInputReader::use(ChunkReader::Event event) {
     default:
       break;
   }
+}
+
+/// The chunk whose header was read last and whose payload this is.
+std::vector<std::uint8_t> JoinInputReader::chunk_with(Bytes payload) const {
+  std::vector<std::uint8_t> chunk(gop_start_);
+  chunk.insert(chunk.end(), payload.begin(), payload.end());
+  return chunk;
 }
 
 std::vector<Bytes> JoinInputReader::planes() const {
@@ -94,7 +102,9 @@ Status JoinInputReader::begin() {
     use(*event);
     if (*event != ChunkReader::Event::kChunk) continue;
     const ChunkKind kind = kind_of(reader_.chunk());
-    if (kind != ChunkKind::kHead && kind != ChunkKind::kMetadata) return {};
+    if (kind == ChunkKind::kHead || kind == ChunkKind::kMetadata || kind == ChunkKind::kData) continue;
+    begun_ = true;
+    return {};
   }
 }
 

@@ -15,7 +15,7 @@ class JoinInputReader {
  public:
   JoinInputReader(JoinInput input, const DecoderLimits& limits) : input_(std::move(input)), reader_(limits) {}
 
-  /// Reads signature, head and the metadata that follow it, up to the first other chunk.
+  /// Reads signature, head, and metadata and data that follow it, up to the first other chunk.
   Status begin();
   /// Reads on to the next GOP, as far as its header packet. False at the stream's end, which has then been
   /// checked.
@@ -27,6 +27,10 @@ class JoinInputReader {
   const std::string& name() const { return input_.name; }
   const StreamLimits& limits() const { return reader_.head().limits; }
   const Metadata& metadata() const { return metadata_; }
+  /// Hands out the chunks of data that begin() read; none from then on.
+  std::vector<std::vector<std::uint8_t>> take_data() { return std::exchange(data_, {}); }
+  /// Payload checksums of the chunks of data that were read so far.
+  const std::vector<std::uint32_t>& data_ids() const { return data_ids_; }
   /// The chunk of the mesh that the GOP names.
   Bytes mesh() const { return kept(reader_.meshes(), gop_mesh_); }
   /// The chunks of the planes that the GOP names.
@@ -34,13 +38,14 @@ class JoinInputReader {
   /// Of the GOP: its chunk from the first byte to the end of its header packet, and its frames.
   Bytes gop_start() const { return gop_start_; }
   std::uint32_t gop_frames() const { return gop_frames_; }
-  /// Ancillary chunks that join() does not take over.
+  /// Ancillary chunks other than data, which join() does not take over.
   std::uint64_t chunks_passed_over() const { return chunks_passed_over_; }
 
  private:
   /// The next event that is neither a want of bytes nor anything wrong; what is wrong is an error.
   Result<ChunkReader::Event> next();
   void use(ChunkReader::Event event);
+  std::vector<std::uint8_t> chunk_with(Bytes payload) const;
   static Bytes kept(const ChunkWindow& window, std::uint32_t id) {
     return *static_cast<const std::vector<std::uint8_t>*>(window.find(id)->content.get());
   }
@@ -50,6 +55,9 @@ class JoinInputReader {
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   Metadata metadata_;
+  bool begun_ = false;
+  std::vector<std::vector<std::uint8_t>> data_;
+  std::vector<std::uint32_t> data_ids_;
   std::uint32_t gop_mesh_ = 0;
   std::vector<std::uint32_t> gop_planes_;
   std::vector<std::uint8_t> gop_start_;  ///< or what was read last of another chunk

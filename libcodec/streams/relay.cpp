@@ -99,6 +99,8 @@ class StreamSplitter::State {
         return std::move(reader_.problem().error);
       case Event::kFailed:
         return reader_.error();
+      case Event::kData:  // who is fed by a relay comes and goes: data are for those who have the whole
+                          // stream
       case Event::kNeedBytes:
       case Event::kEnd:
         break;

@@ -75,6 +75,12 @@ class Surveyor {
       case ChunkReader::Event::kMetadata:
         result_.metadata = reader_.take_metadata();
         break;
+      case ChunkReader::Event::kData: {
+        const CodedData& data = reader_.data();
+        result_.data.push_back(
+            {std::string(data.name), data.encoding, data.decoded_size, reader_.chunk().total_size()});
+        break;
+      }
       case ChunkReader::Event::kMesh:
         take_mesh();
         break;

@@ -55,6 +55,15 @@ TEST(CApi, TellsWhatTheStreamIs) {
   EXPECT_EQ(tvg_version(), static_cast<std::uint32_t>(TVG_VERSION));
 }
 
+TEST(CApi, PassesOverFreeFormData) {
+  std::mt19937 random(9);
+  EncodeOptions options;
+  options.data = {{"a", {1, 2, 3}}, {"b", std::vector<std::uint8_t>(500)}};
+  const Stream stream = encode_sequence(random_sequence(grid(4, 3), 5, random), options);
+  EXPECT_EQ(decode_stream(stream).data, options.data);
+  EXPECT_EQ(decode_all(stream, 1).size(), 5u);
+}
+
 TEST(CApi, EveryFunctionTakesNull) {
   std::uint64_t number = 0;
   EXPECT_EQ(tvg_limits_init(nullptr), TVG_ERROR_INVALID_ARGUMENT);

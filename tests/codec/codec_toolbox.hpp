@@ -50,6 +50,7 @@ struct DecodedFrame {
 struct DecodedStream {
   StreamHead head;
   Metadata metadata;
+  std::vector<NamedData> data;  ///< that could be unpacked
   std::vector<Mesh> meshes;
   std::vector<DecodedFrame> frames;
   std::vector<Damage> damage;
@@ -84,6 +85,11 @@ inline bool drain(Decoder& decoder, DecodedStream& result) {
       case Event::kMetadata:
         result.metadata = decoder.metadata();
         break;
+      case Event::kData: {
+        Result<NamedData> data = unpack_data(decoder.data());
+        if (data) result.data.push_back(std::move(*data));
+        break;
+      }
       case Event::kMesh:
         result.meshes.push_back(decoder.mesh());
         break;

@@ -82,6 +82,17 @@ class Player {
   std::vector<std::uint8_t> flags_, positions_;
 };
 
+/// Above this data are not unpacked, which takes memory that the head does not declare.
+constexpr std::uint64_t kMostUnpacked = 1u << 20;
+
+void take_data(const tvg::CodedData& data) {
+  require(!data.name.empty() && data.name.size() <= tvg::kMaxDataNameBytes);
+  require(data.decoded_size <= tvg::kMaxDataBytes && data.bytes.size() <= data.decoded_size);
+  if (data.decoded_size > kMostUnpacked) return;
+  const auto unpacked = tvg::unpack_data(data);
+  require(!unpacked || unpacked->bytes.size() == data.decoded_size);
+}
+
 /// Decodes bytes pushed in pieces of `piece`. Returns the memory in bytes that this may take: what the head
 /// declares, and what the player has.
 std::size_t decode(std::span<const std::uint8_t> stream, std::size_t piece, std::uint8_t options) {
@@ -100,6 +111,9 @@ std::size_t decode(std::span<const std::uint8_t> stream, std::size_t piece, std:
         decoder.push(stream.first(std::min(piece, stream.size())));
         stream = stream.subspan(std::min(piece, stream.size()));
         break;
+      case Decoder::Event::kData:
+        take_data(decoder.data());
+        break;
       case Decoder::Event::kMesh:
         player.take_mesh();
         break;
@@ -114,7 +128,7 @@ std::size_t decode(std::span<const std::uint8_t> stream, std::size_t piece, std:
       case Decoder::Event::kError:
         return static_cast<std::size_t>(
                    std::max(decoder.head().limits.decoder_memory, tvg::decoder_memory_needed({}))) +
-               80 * std::size_t{decoder.head().limits.vertices};
+               80 * std::size_t{decoder.head().limits.vertices} + kMostUnpacked;
       default:
         break;
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <tvg/data.hpp>
 #include <tvg/properties.hpp>
 #include <tvg/stream_map.hpp>
 #include <tvg/types.hpp>
@@ -94,6 +95,7 @@ class Decoder {
     kChunk,      ///< a chunk begins: chunk()
     kHead,       ///< head() is valid
     kMetadata,   ///< metadata() is valid
+    kData,       ///< free-form data: data()
     kMesh,       ///< mesh() is another; frames that follow belong to it
     kGop,        ///< gop() is valid
     kFrame,      ///< a frame is decoded: frame_number(), copy_positions()
@@ -139,6 +141,9 @@ class Decoder {
 
   const StreamHead& head() const;
   const Metadata& metadata() const;
+  /// Free-form data as they stand in the stream, whatever they are (unpack_data()); valid after kData until
+  /// the next poll() or push(). Data of a name that came before take the place of those.
+  const CodedData& data() const;
   /// Connectivity in the order frames are given in: the input's own unless the stream gave that up. Of a
   /// coarser mesh (use_lod()) the vertices are some of the whole mesh's, in the same order.
   const Mesh& mesh() const;

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <tvg/geometry.hpp>
 #include <tvg/levels.hpp>
@@ -54,6 +55,10 @@ struct EncodeOptions {
   std::optional<ErrorBound> max_error;
   AttributeBits attribute_bits;
   bool keep_vertex_order = true;
+  /// encode() alone: where each frame of the source has a mesh of its own, as captured volumes have, the
+  /// order of vertices is given up, for it says nothing from frame to frame; and frames are coded by
+  /// themselves (mode elp and no reference shape), unless they are to be lossless.
+  bool suit_captured = false;
   /// Levels of the first mesh's vertices, and coarser meshes of it, at most 16, each with no more faces than
   /// the mesh. The pyramid is built from the levels; a coarser mesh can be played (Decoder::use_lod()), in
   /// mode basis from fewer bytes. kInvalidArgument where they do not fit the mesh. Null: none.
@@ -61,6 +66,9 @@ struct EncodeOptions {
   std::uint64_t first_frame = 0;  ///< number of the source's first frame in a longer sequence it was cut from
   unsigned threads = 1;           ///< GOPs encoded at the same time; the bytes do not depend on it
   Metadata metadata;              ///< encode() adds what the source says
+  /// Free-form data, whose names are unique and whose bytes are at most kMaxDataBytes each; compressed where
+  /// that is smaller. encode() adds those of the source that have other names.
+  std::vector<NamedData> data;
 
   /// What all frames lie in: every GOP then has the same lattice. Absent: each GOP has a box of its own, but
   /// encode() looks for that of the whole source where it can be read twice and no step is given.
@@ -79,7 +87,10 @@ struct EncodeReport {
   std::uint64_t frames = 0;
   std::uint32_t vertices = 0;  ///< of the first mesh
   std::uint64_t gops = 0;
-  std::uint64_t bytes = 0;  ///< of the whole stream
+  std::uint64_t meshes = 0;         ///< written; one that a decoder still knows is not written again
+  std::uint64_t vertex_frames = 0;  ///< vertices, summed over frames
+  bool captured = false;            ///< each frame has a mesh of its own, and that was made use of
+  std::uint64_t bytes = 0;          ///< of the whole stream
   /// In mode basis: the largest error of a coordinate, in the mesh's units; 0 in others.
   double largest_error = 0;
   bool box_of_each_gop = false;  ///< neither box nor step was given, so each GOP has cells of its own
@@ -130,9 +141,12 @@ class Encoder {
 /// (format-spec §5.7).
 std::uint64_t property_bytes_of(const MeshProperties& properties, const Mesh& mesh);
 
-/// Pushes a sequence through an encoder. Where the options have a box or a step and no largest error, or are
-/// lossless, the source is read once, from where it stands, and not rewound. Otherwise a source that can be
-/// rewound is read twice, first for the bounding box of the whole sequence. Errors: kInvalidArgument for
+/// Pushes a sequence through an encoder, mesh after mesh. Where the mesh does not change, and the options
+/// have a box or a step and no largest error, or are lossless, the source is read once, from where it stands,
+/// and not rewound. Otherwise a source that can be rewound is read twice, first for the bounding box of the
+/// whole sequence and for the bounds of its meshes, which the head declares; it then says, too, how many
+/// meshes a decoder keeps (at most 16), so that few are sent again. Of a source that can be read only once,
+/// the options have to say what is ahead: kLimitExceeded where they do not. Errors: kInvalidArgument for
 /// options out of range, kInvalidInput for geometry that cannot be encoded, and what source and sink return.
 Result<EncodeReport> encode(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                             const EncodeProgress& progress = {});

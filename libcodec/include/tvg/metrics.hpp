@@ -148,12 +148,16 @@ class SurfaceComparison {
   SurfaceComparison(SurfaceComparison&&) noexcept;
   SurfaceComparison& operator=(SurfaceComparison&&) noexcept;
 
-  /// The mesh of the other side's frames that follow, where it changes.
+  /// The mesh of one side's frames that follow, where it changes.
+  /// @{
+  void set_original(const Mesh& original);
   void set_other(const Mesh& other);
+  /// @}
 
   /// Takes the next frame of both: float32 [vertex][xyz] of the mesh of each. Fails with kInvalidArgument
-  /// where a size or a setting is wrong, kInvalidInput where a position is not finite, or a mesh has no faces
-  /// or names a vertex it does not have; a frame that fails is not counted.
+  /// where a size or a setting is wrong, kInvalidInput where a position is not finite, or a mesh
+  /// names a vertex it does not have, or one of the two has no faces; a frame that fails is not counted, and
+  /// one in which neither has faces is, but not measured.
   Status add_frame(std::span<const float> original, std::span<const float> other);
 
   /// Whether add_frame() measures the next frame.

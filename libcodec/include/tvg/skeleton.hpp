@@ -12,6 +12,7 @@ struct Skeleton {
   std::vector<std::uint32_t> heaviest_joint;  ///< [vertex]: by skin weights; empty where there are none
 
   bool empty() const { return joint_names.empty(); }
+  bool operator==(const Skeleton&) const = default;
 };
 
 /// A skeleton over time, all in memory.

@@ -50,11 +50,22 @@ class FrameSource {
   /// this frame on. The source then goes on with that mesh, which mesh() is now, and the frame is read next.
   /// (So that who knows of one mesh only is told.)
   virtual Result<bool> begin_next_mesh() { return false; }
+  /// Whether the mesh may be another one later, so that it pays to look through the source before. (Where it
+  /// says no, that is a promise.)
+  virtual bool mesh_may_change() const { return false; }
   /// Passes over `count` frames, which are within the sequence: reads them, where there is no shorter way.
+  /// mesh() may be another one after it.
   virtual Status skip_frames(std::uint64_t count);
-  /// Goes back to the first frame. Returns false where the input can be read only once (a pipe).
+  /// Goes back to the first frame and its mesh. Returns false where the input can be read only once (a pipe).
   virtual bool rewind() = 0;
 };
+
+/// What comes next of a source.
+enum class SourceStep : std::uint8_t { kFrame, kMesh, kEnd };
+
+/// Reads the next frame into `frame`, which gets its size ([vertex][xyz]); or goes on with the next mesh
+/// where that begins here, and the frame is read next. Fails as the source does.
+Result<SourceStep> read_step(FrameSource& source, FramePositions& frame);
 
 /// A source that is another one, but for what a class derived from it overrides.
 class SourceDecorator : public FrameSource {
@@ -73,6 +84,7 @@ class SourceDecorator : public FrameSource {
   std::optional<std::uint64_t> frame_count() const override { return source_->frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override { return source_->read_frame(positions); }
   Result<bool> begin_next_mesh() override { return source_->begin_next_mesh(); }
+  bool mesh_may_change() const override { return source_->mesh_may_change(); }
   Status skip_frames(std::uint64_t count) override { return source_->skip_frames(count); }
   bool rewind() override { return source_->rewind(); }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <tvg/decoder.hpp>
@@ -26,10 +27,19 @@ struct SurveyedPlan {
   std::uint32_t part = 0;   ///< 0, or how many parts there are that this one adds to
 };
 
+/// Free-form data, by what is said of them.
+struct SurveyedData {
+  std::string name;
+  DataEncoding encoding = DataEncoding::kStored;
+  std::uint64_t decoded_size = 0;
+  std::uint64_t bytes = 0;  ///< of the whole chunk
+};
+
 /// What a stream's structures say without being decoded.
 struct StreamSurvey {
   StreamHead head;
   Metadata metadata;
+  std::vector<SurveyedData> data;  ///< in the order of the stream
   std::vector<ChunkInfo> chunks;
   std::vector<SurveyedMesh> meshes;
   std::vector<GopInfo> gops;              ///< `flagged` is not known: it takes decoding
