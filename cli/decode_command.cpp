@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include <tvg/data.hpp>
 #include <tvg/levels.hpp>
 
 namespace tvg::cli {
@@ -81,6 +82,9 @@ class DecodeJob {
   void handle(Decoder::Event event) {
     const Decoder& decoder = reader_.decoder();
     switch (event) {
+      case Decoder::Event::kData:
+        add_data(decoder.data());
+        break;
       case Decoder::Event::kMesh:
         begin_mesh();
         break;
@@ -99,6 +103,26 @@ class DecodeJob {
       default:
         break;
     }
+  }
+
+  /// What comes with the first mesh or before it, and times; what a later part of joined streams has under
+  /// the same names is of that part alone.
+  void add_data(const CodedData& coded) {
+    if (begun_ && coded.name != "times") return;
+    Result<NamedData> data = unpack_data(coded);
+    if (!data) {
+      notes_.push_back(fmt::format("the data \"{}\" are left out: {}", coded.name, data.error().message));
+      return;
+    }
+    constexpr std::uint64_t kTimeBytes = 8;
+    if (data->name == "times" && wanted_) {
+      const std::uint64_t frames = data->bytes.size() / kTimeBytes;
+      const auto first = static_cast<std::ptrdiff_t>(kTimeBytes * std::min(wanted_->first, frames));
+      const auto end = static_cast<std::ptrdiff_t>(
+          kTimeBytes * (frames == 0 ? 0 : std::min(wanted_->last, frames - 1) + 1));
+      data->bytes = {data->bytes.begin() + std::min(first, end), data->bytes.begin() + end};
+    }
+    sink_->add_data(*data);
   }
 
   void begin_mesh() {
@@ -209,6 +233,7 @@ class DecodeJob {
 
   void report() const {
     if (arguments_.quiet) return;
+    for (const std::string& note : notes_) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& note : sink_->notes()) fmt::print(stderr, "note: {}\n", note);
     fmt::print(stderr, "{}: {} frames\n", written_files(*sink_, arguments_.output), written_ + lost_);
     if (arguments_.lod > 0) fmt::print(stderr, "note: {}\n", reader_.lod_note());
@@ -224,6 +249,7 @@ class DecodeJob {
   std::optional<std::uint64_t> total_;          ///< frames of the stream
   std::optional<std::uint64_t> output_frames_;  ///< frames that are to be written
   std::optional<FrameRange> wanted_;
+  std::vector<std::string> notes_;
   std::vector<float> positions_;  ///< the last good frame, [vertex][xyz]
   bool begun_ = false;
   bool pending_mesh_ = false;

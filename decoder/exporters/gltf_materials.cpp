@@ -70,6 +70,7 @@ json GltfMaterials::image(json described, GltfBuffer& buffer) {
   }
   if (name.empty()) name = data.empty() ? text_of(described, "name") : data.substr(data.find('/') + 1);
   described.erase("mimeType");
+  if (bytes != nullptr) strange_images_ = true;
   described["uri"] = as_uri(name.empty() ? "missing.png" : name);
   return described;
 }
@@ -128,6 +129,9 @@ std::vector<std::string> GltfMaterials::notes() const {
   std::vector<std::string> notes;
   if (data_.unreadable())
     notes.emplace_back("the stream's materials are no JSON that can be read: only their names are kept");
+  if (strange_images_)
+    notes.emplace_back(
+        "images that are no PNG, JPEG, WebP or KTX 2 are named only: glTF does not embed them");
   if (lost_textures_)
     notes.emplace_back(
         "textures that materials name are left out where there are no texture coordinates for them");

@@ -33,6 +33,7 @@ class GltfMaterials {
   nlohmann::json materials_ = nlohmann::json::array();
   bool numbered_ = false;
   bool lost_textures_ = false;
+  bool strange_images_ = false;
   std::set<std::string> extensions_;
 };
 

@@ -23,25 +23,39 @@ std::string last_part(const std::string& name) {
   return name.substr(name.find_last_of("/\\") + 1);
 }
 
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+/// The suffix for an image's file: the one that it has, where that is an image's and what it is. "" for what
+/// is no image.
+std::string image_suffix(const std::string& suffix, const std::string& type) {
+  static const std::set<std::string> kOthers = {".bmp", ".dds", ".exr", ".gif", ".hdr", ".pcx", ".pgm",
+                                                ".png", ".ppm", ".psd", ".tga", ".tif", ".tiff"};
+  const std::string lower = lower_case(suffix);
+  if (type.empty()) return kOthers.contains(lower) ? suffix : std::string();
+  const std::string usual =
+      type == "image/jpeg" ? std::string(".jpg") : fmt::format(".{}", type.substr(type.find('/') + 1));
+  return lower == usual || (type == "image/jpeg" && lower == ".jpeg") ? suffix : usual;
+}
+
 /// A name for an image's file that is no more than that, whatever the stream calls it: its own last part with
-/// a suffix that fits what it is.
-std::string safe_image_name(const std::string& name, const std::string& type) {
+/// a suffix that fits what it is. "" for what is no image.
+std::string safe_image_name(const std::string& name, std::span<const std::uint8_t> bytes) {
   std::string stem = one_line(last_part(name));
   std::string suffix;
   if (const std::size_t dot = stem.find_last_of('.'); dot != std::string::npos) {
     suffix = stem.substr(dot);
     stem.resize(dot);
   }
-  std::string lower = suffix;
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  const std::string usual =
-      type == "image/jpeg" ? std::string(".jpg") : fmt::format(".{}", type.substr(type.find('/') + 1));
-  if (lower != usual && !(type == "image/jpeg" && lower == ".jpeg")) suffix = usual;
+  suffix = image_suffix(suffix, image_type(bytes));
+  if (suffix.empty()) return "";
   constexpr std::size_t kMostBytes = 100;
   stem.resize(std::min(stem.size(), kMostBytes));
   stem.erase(0, std::min(stem.find_first_not_of(". "), stem.size()));
-  return (stem.empty() ? "image" : stem) + suffix;
+  return (stem.empty() ? std::string("image") : stem) + suffix;
 }
 
 bool has_bytes(const std::string& path, std::span<const std::uint8_t> bytes) {
@@ -76,14 +90,13 @@ std::string MaterialFiles::image_path(const std::string& file_name) const {
 void MaterialFiles::choose_images() {
   std::set<std::string> taken;
   for (const auto& [name, bytes] : data_.images()) {
-    const std::string type = image_type(bytes);
-    if (type.empty()) {
+    const std::string wanted = safe_image_name(name, bytes);
+    if (wanted.empty()) {
       left_out_.push_back(name);
       continue;
     }
-    std::string file = safe_image_name(name, type);
-    for (int number = 2; !taken.insert(file).second; ++number)
-      file = fmt::format("{}_{}", number, safe_image_name(name, type));
+    std::string file = wanted;
+    for (int number = 2; !taken.insert(file).second; ++number) file = fmt::format("{}_{}", number, wanted);
     const std::string path = image_path(file);
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored) && !has_bytes(path, bytes)) {
@@ -126,7 +139,7 @@ std::vector<std::string> MaterialFiles::notes() const {
   if (data_.unreadable())
     notes.emplace_back("the stream's materials are no JSON that can be read: only their names are kept");
   for (const std::string& name : left_out_)
-    notes.push_back(fmt::format("{} is no PNG, JPEG, WebP or KTX 2: it is left out", one_line(name)));
+    notes.push_back(fmt::format("{} is no image of a known kind: it is left out", one_line(name)));
   return notes;
 }
 
@@ -169,14 +182,11 @@ std::string MaterialFiles::with_our_images(const std::string& line) const {
       !trimmed.starts_with("norm") && !trimmed.starts_with("refl") && !trimmed.starts_with("decal")) {
     return line;
   }
-  for (const json& image : array_of(data_.json(), "images")) {
-    const auto ours = image_files_.find(text_of(member(image, "extras"), "data"));
-    const std::string uri = text_of(image, "uri");
-    const std::string name = uri.empty() ? text_of(image, "name") : uri;
-    if (ours == image_files_.end() || name.empty()) continue;
-    const std::size_t at = line.find(name);
-    if (at != std::string::npos && line.find_last_not_of(" \t\r") == at + name.size() - 1)
-      return line.substr(0, at) + ours->second;
+  for (const auto& [data, file] : image_files_) {
+    const std::string name = data.substr(data.find('/') + 1);
+    const std::size_t at = line.rfind(name);
+    if (at != std::string::npos && line.find_last_not_of(" \t") == at + name.size() - 1)
+      return line.substr(0, at) + file;
   }
   for (const auto& [name, file] : image_files_) {
     const std::string known = last_part(name);
