@@ -1,6 +1,6 @@
 """Runs inside Blender: makes an animated mesh and exports it, or imports files and tells what Blender sees.
 
-    blender -b --factory-startup --python-exit-code 1 --python in_blender.py -- make FOLDER
+    blender -b --factory-startup --python-exit-code 1 --python in_blender.py -- make KIND FOLDER
     blender -b --factory-startup --python-exit-code 1 --python in_blender.py -- look KIND FRAMES FILE... OUT.json
 """
 
@@ -96,42 +96,40 @@ def make_sheet():
     return sheet
 
 
-def make(folder):
+def make(kind, folder):
     scene = bpy.context.scene
     scene.render.fps = RATE
     scene.frame_start, scene.frame_end = 0, FRAMES - 1
     make_sheet()
-    for name in ("cache", "obj", "ply", "gltf"):
-        os.makedirs(os.path.join(folder, name), exist_ok=True)
+    folder = os.path.join(folder, kind)
+    os.makedirs(folder, exist_ok=True)
     axes = {"forward_axis": "Y", "up_axis": "Z"}
     scene.frame_set(0)
-    bpy.ops.wm.obj_export(filepath=os.path.join(folder, "cache", "sheet.obj"), export_colors=True, **axes)
-    enable("io_shape_mdd")
-    bpy.ops.export_shape.mdd(
-        filepath=os.path.join(folder, "cache", "sheet.mdd"), fps=RATE, frame_start=0, frame_end=FRAMES - 1
-    )
-    bpy.ops.wm.obj_export(
-        filepath=os.path.join(folder, "obj", "sheet.obj"),
-        export_animation=True,
-        start_frame=0,
-        end_frame=FRAMES - 1,
-        export_colors=True,
-        **axes
-    )
-    enable("io_mesh_ply")
-    for frame in range(FRAMES):
-        scene.frame_set(frame)
-        bpy.ops.export_mesh.ply(
-            filepath=os.path.join(folder, "ply", "sheet_%04d.ply" % frame),
-            use_normals=True,
-            use_uv_coords=True,
-            use_colors=True,
+    if kind == "cache":
+        bpy.ops.wm.obj_export(filepath=os.path.join(folder, "sheet.obj"), export_colors=True, **axes)
+        enable("io_shape_mdd")
+        bpy.ops.export_shape.mdd(
+            filepath=os.path.join(folder, "sheet.mdd"), fps=RATE, frame_start=0, frame_end=FRAMES - 1
         )
-    scene.frame_set(0)
-    enable_gltf()
-    bpy.ops.export_scene.gltf(
-        filepath=os.path.join(folder, "gltf", "sheet.glb"), export_frame_range=True, export_colors=True
-    )
+    elif kind == "obj":
+        bpy.ops.wm.obj_export(
+            filepath=os.path.join(folder, "sheet.obj"),
+            export_animation=True,
+            start_frame=0,
+            end_frame=FRAMES - 1,
+            export_colors=True,
+            **axes
+        )
+    elif kind == "ply":
+        enable("io_mesh_ply")
+        for frame in range(FRAMES):
+            scene.frame_set(frame)
+            bpy.ops.export_mesh.ply(filepath=os.path.join(folder, "sheet_%04d.ply" % frame))
+    else:
+        enable_gltf()
+        bpy.ops.export_scene.gltf(
+            filepath=os.path.join(folder, "sheet.glb"), export_frame_range=True, export_colors=True
+        )
 
 
 def base_colour(made):
@@ -257,7 +255,7 @@ def main():
     arguments = sys.argv[sys.argv.index("--") + 1 :]
     clear()
     if arguments[0] == "make":
-        make(arguments[1])
+        make(arguments[1], arguments[2])
     else:
         look(arguments[1], int(arguments[2]), arguments[3:-1], arguments[-1])
 

@@ -11,6 +11,7 @@ to pass it.
 import glob
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -32,8 +33,8 @@ validator.validateBytes(new Uint8Array(fs.readFileSync(process.argv[1]))).then(r
 """
 
 
-def run(command):
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+def run(command, environment=None):
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=environment)
     if "skipped: " in done.stdout:
         print(done.stdout[done.stdout.index("skipped: ") :].splitlines()[0])
         sys.exit(SKIPPED)
@@ -43,10 +44,14 @@ def run(command):
 
 
 def blender(*arguments):
+    # Blender takes the modules of the first Python in PATH, which has to be the one of the system that it is from.
+    folder = os.path.dirname(shutil.which("blender"))
+    environment = dict(os.environ, PATH=folder + os.pathsep + os.environ["PATH"])
     run(
         ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python"]
         + [os.path.join(HERE, "in_blender.py"), "--"]
-        + [str(argument) for argument in arguments]
+        + [str(argument) for argument in arguments],
+        environment,
     )
 
 
@@ -167,7 +172,7 @@ def main():
         sys.exit(SKIPPED)
     with tempfile.TemporaryDirectory() as folder:
         at = lambda *parts: os.path.join(folder, *parts)
-        blender("make", folder)
+        blender("make", kind, folder)
         os.mkdir(at("back"))
         options = []
         if kind == "cache":
@@ -177,7 +182,8 @@ def main():
             files, backs = [at("gltf", "sheet.glb")], [at("back", "sheet.glb")]
             output, options = backs[0], ["--fps", RATE]
         else:
-            files = sorted(glob.glob(at(kind, "*." + kind)))
+            number = lambda path: int(re.search("[0-9]+", os.path.basename(path)).group())
+            files = sorted(glob.glob(at(kind, "*." + kind)), key=number)
             output = at("back", "sheet_%04d." + kind)
             backs = [output % frame for frame in range(FRAMES)]
         original = look(kind, files, at("original.json"))
