@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include <tvg/data.hpp>
 #include <tvg/levels.hpp>
 
 namespace tvg::cli {
@@ -30,7 +31,16 @@ struct DecodeArguments {
   std::uint32_t lod = 0;
   bool conceal = false;
   bool quiet = false;
+  std::string gltf_positions = "float";
+  std::string gltf_keys = "linear";
 };
+
+SinkOptions sink_options(const DecodeArguments& arguments) {
+  SinkOptions options;
+  options.gltf_quantized = arguments.gltf_positions == "quantized";
+  options.gltf_steps = arguments.gltf_keys == "step";
+  return options;
+}
 
 /// Of frames that were decoded and not written yet. GOPs larger than that are decoded one at a time.
 constexpr std::uint64_t kMostBytesAhead = std::uint64_t{1} << 30;
@@ -41,7 +51,7 @@ class DecodeJob {
   explicit DecodeJob(const DecodeArguments& arguments)
       : arguments_(arguments),
         reader_(arguments.input),
-        sink_(open_sink(arguments.output, {})),
+        sink_(open_sink(arguments.output, sink_options(arguments))),
         concealment_(reader_.name(), arguments.conceal),
         bar_("decoding", arguments.quiet),
         threads_(arguments.threads != 0 ? arguments.threads
@@ -72,6 +82,9 @@ class DecodeJob {
   void handle(Decoder::Event event) {
     const Decoder& decoder = reader_.decoder();
     switch (event) {
+      case Decoder::Event::kData:
+        add_data(decoder.data());
+        break;
       case Decoder::Event::kMesh:
         begin_mesh();
         break;
@@ -92,6 +105,26 @@ class DecodeJob {
     }
   }
 
+  /// What comes with the first mesh or before it, and times; what a later part of joined streams has under
+  /// the same names is of that part alone.
+  void add_data(const CodedData& coded) {
+    if (begun_ && coded.name != "times") return;
+    Result<NamedData> data = unpack_data(coded);
+    if (!data) {
+      notes_.push_back(fmt::format("the data \"{}\" are left out: {}", coded.name, data.error().message));
+      return;
+    }
+    constexpr std::uint64_t kTimeBytes = 8;
+    if (data->name == "times" && wanted_) {
+      const std::uint64_t frames = data->bytes.size() / kTimeBytes;
+      const auto first = static_cast<std::ptrdiff_t>(kTimeBytes * std::min(wanted_->first, frames));
+      const auto end = static_cast<std::ptrdiff_t>(
+          kTimeBytes * (frames == 0 ? 0 : std::min(wanted_->last, frames - 1) + 1));
+      data->bytes = {data->bytes.begin() + std::min(first, end), data->bytes.begin() + end};
+    }
+    sink_->add_data(*data);
+  }
+
   void begin_mesh() {
     const Decoder& decoder = reader_.decoder();
     if (begun_) {
@@ -103,7 +136,7 @@ class DecodeJob {
     if (wanted_) frames = wanted_->last - wanted_->first + 1;
     output_frames_ = frames;
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-    sink_->begin_mesh(decoder.mesh(), decoder.metadata(), frames);
+    sink_->begin_mesh(decoder.mesh(), decoder.properties(), decoder.metadata(), frames);
     if (wanted_ && index_ && wanted_->first > 0) reader_.seek(wanted_->first);
   }
 
@@ -122,7 +155,7 @@ class DecodeJob {
     if (!std::exchange(pending_mesh_, false)) return positions_;
     const Decoder& decoder = reader_.decoder();
     positions_.resize(3 * std::size_t{decoder.mesh().vertex_count});
-    sink_->begin_mesh(decoder.mesh(), decoder.metadata(), output_frames_);
+    sink_->begin_mesh(decoder.mesh(), decoder.properties(), decoder.metadata(), output_frames_);
     return positions_;
   }
 
@@ -163,7 +196,7 @@ class DecodeJob {
         return;
       }
       if (std::exchange(told_mesh, gop->mesh_offset) != gop->mesh_offset)
-        sink_->begin_mesh(*gop->mesh, reader_.decoder().metadata(), output_frames_);
+        sink_->begin_mesh(*gop->mesh, *gop->properties, reader_.decoder().metadata(), output_frames_);
       for (std::size_t i = 0; i < gop->frames.size() && !done_; ++i) {
         positions_.swap(gop->frames[i]);
         take_frame(gop->first_frame + i);
@@ -200,12 +233,9 @@ class DecodeJob {
 
   void report() const {
     if (arguments_.quiet) return;
+    for (const std::string& note : notes_) fmt::print(stderr, "note: {}\n", note);
     for (const std::string& note : sink_->notes()) fmt::print(stderr, "note: {}\n", note);
-    const std::vector<std::string>& files = sink_->files();
-    const std::string names = files.empty()       ? arguments_.output
-                              : files.size() <= 2 ? fmt::format("{}", fmt::join(files, ", "))
-                                                  : files.front() + " to " + files.back();
-    fmt::print(stderr, "{}: {} frames\n", names, written_ + lost_);
+    fmt::print(stderr, "{}: {} frames\n", written_files(*sink_, arguments_.output), written_ + lost_);
     if (arguments_.lod > 0) fmt::print(stderr, "note: {}\n", reader_.lod_note());
   }
 
@@ -219,6 +249,7 @@ class DecodeJob {
   std::optional<std::uint64_t> total_;          ///< frames of the stream
   std::optional<std::uint64_t> output_frames_;  ///< frames that are to be written
   std::optional<FrameRange> wanted_;
+  std::vector<std::string> notes_;
   std::vector<float> positions_;  ///< the last good frame, [vertex][xyz]
   bool begun_ = false;
   bool pending_mesh_ = false;
@@ -241,8 +272,9 @@ void add_decode_command(CLI::App& tool) {
   command
       .add_option(
           "-o,--output", arguments->output,
-          "a cache (back.pc2, back.mdd; the mesh goes beside it as OBJ; - for PC2 on standard output) or a "
-          "sequence of mesh files (back_%04d.obj, .ply, .off, .stl)")
+          "a cache (back.pc2, back.mdd, back.npy; the mesh goes beside it as OBJ; - for PC2 on standard "
+          "output), a scene that any engine plays (back.glb, back.gltf), or a sequence of mesh files "
+          "(back_%04d.obj, .ply, .off, .stl)")
       ->required();
   command.add_option("--frames", arguments->frames, "decode frames A-B only, counted from 0");
   command
@@ -258,6 +290,16 @@ void add_decode_command(CLI::App& tool) {
       ->check(CLI::Range(0u, kMaxCoarseMeshes));
   command.add_flag("--conceal", arguments->conceal,
                    "where frames are damaged, hold the last good one and go on");
+  command
+      .add_option("--gltf-positions", arguments->gltf_positions,
+                  "of .glb and .gltf: float, or quantized: 16 bits over all frames (KHR_mesh_quantization)")
+      ->check(CLI::IsMember({"float", "quantized"}))
+      ->capture_default_str();
+  command
+      .add_option("--gltf-keys", arguments->gltf_keys,
+                  "of .glb and .gltf: linear, where frames pass over into the next, or step")
+      ->check(CLI::IsMember({"linear", "step"}))
+      ->capture_default_str();
   command.add_option("--threads", arguments->threads, "GOPs decoded at a time (default: one per processor)")
       ->check(CLI::Range(1, 256));
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");

@@ -27,7 +27,7 @@ std::string SimplifyOutput::write(FrameSource& source, const EncodeOptions& opti
         source, options, bytes(),
         [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) { bar.update(frames, total); }));
   }
-  sink_->begin_mesh(source.mesh(), source.metadata(), source.frame_count());
+  sink_->begin_mesh(source.mesh(), {}, source.metadata(), source.frame_count());
   FramePositions frame(3 * std::size_t{source.mesh().vertex_count});
   std::uint64_t frames = 0;
   for (;; ++frames) {
@@ -49,7 +49,7 @@ void SimplifyOutput::begin(const EncodeOptions& options, std::uint64_t frame_cou
 
 void SimplifyOutput::add(const Mesh& mesh, std::span<const float> positions) {
   if (sink_) {
-    sink_->begin_mesh(mesh, metadata_, frame_count_);
+    sink_->begin_mesh(mesh, {}, metadata_, frame_count_);
     sink_->write_frame(positions);
     return;
   }
@@ -73,11 +73,7 @@ std::string SimplifyOutput::finish(const Result<EncodeReport>& report) {
 std::string SimplifyOutput::words(std::uint64_t frames) const {
   std::string text;
   for (const std::string& note : sink_->notes()) text += "note: " + note + "\n";
-  const std::vector<std::string>& files = sink_->files();
-  const std::string names = files.empty()       ? path_
-                            : files.size() <= 2 ? fmt::format("{}", fmt::join(files, ", "))
-                                                : files.front() + " to " + files.back();
-  return text + fmt::format("{}: {} frames", names, frames);
+  return text + fmt::format("{}: {} frames", written_files(*sink_, path_), frames);
 }
 
 ByteSink SimplifyOutput::bytes() const {

@@ -15,15 +15,21 @@ class DecodeAhead::Worker {
   }
 
   DecodedGop decode(const StreamMap::Place& place, std::uint64_t mesh_offset) {
-    DecodedGop gop{.first_frame = place.first_frame, .mesh_offset = mesh_offset, .mesh = {}, .frames = {}};
+    DecodedGop gop{.first_frame = place.first_frame,
+                   .mesh_offset = mesh_offset,
+                   .mesh = {},
+                   .properties = {},
+                   .frames = {}};
     if (!begin()) return gop;
     reader_.seek(gop.first_frame);
     gop.whole = read_frames(gop, place.entry.frame_count);
     if (gop.whole && (mesh_ == nullptr || mesh_offset != mesh_offset_)) {
       mesh_ = std::make_shared<const Mesh>(reader_.decoder().mesh());
+      properties_ = std::make_shared<const MeshProperties>(reader_.decoder().properties());
       mesh_offset_ = mesh_offset;
     }
     gop.mesh = mesh_;
+    gop.properties = properties_;
     return gop;
   }
 
@@ -74,6 +80,7 @@ class DecodeAhead::Worker {
   StreamReader reader_;
   bool begun_ = false;
   std::shared_ptr<const Mesh> mesh_;  ///< of the GOP decoded last
+  std::shared_ptr<const MeshProperties> properties_;
   std::uint64_t mesh_offset_ = 0;
 };
 

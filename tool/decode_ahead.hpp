@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <tvg/properties.hpp>
 #include <tvg/stream_map.hpp>
 #include <tvg/types.hpp>
 
@@ -17,7 +18,8 @@ struct DecodedGop {
   std::uint64_t first_frame = 0;  ///< position in the stream
   std::uint64_t mesh_offset = 0;  ///< where its mesh's chunk begins: tells whether the mesh is another
   std::shared_ptr<const Mesh> mesh;
-  std::vector<FramePositions> frames;  ///< [frame][vertex][xyz]
+  std::shared_ptr<const MeshProperties> properties;  ///< of the mesh
+  std::vector<FramePositions> frames;                ///< [frame][vertex][xyz]
   /// Whether all is well up to the next GOP. Otherwise the frames are not to be used: who reads the stream
   /// from `first_frame` on learns what is missing.
   bool whole = false;

@@ -1,13 +1,11 @@
 #include "decoder/exporters/mesh_writers.hpp"
 
 #include "decoder/exporters/bytes.hpp"
+#include "decoder/exporters/polygon_faces.hpp"
+#include "decoder/exporters/text_line.hpp"
 #include "tool/tool_error.hpp"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -17,110 +15,54 @@ namespace tvg::cli {
 
 namespace {
 
-/// One line of numbers with a word in front.
-class Line {
- public:
-  explicit Line(std::string_view word) { length_ = word.copy(text_.data(), word.size()); }
-  template <class T>
-  void add(T number) {
-    if (length_ > 0) text_[length_++] = ' ';
-    const auto [end, error] = std::to_chars(text_.data() + length_, text_.data() + text_.size(), number);
-    static_cast<void>(error);  // three numbers of at most 25 characters fit
-    length_ = static_cast<std::size_t>(end - text_.data());
-  }
-  std::string_view finish() {
-    text_[length_++] = '\n';
-    return {text_.data(), length_};
-  }
-
- private:
-  std::array<char, 96> text_;
-  std::size_t length_;
+/// The colours that a COFF has: [vertex][red, green, blue, alpha] as it stands in the properties.
+struct OffColours {
+  std::span<const float> values;
+  std::size_t components = 0;  ///< 0 where there are none
+  std::vector<std::uint32_t> value_index;
 };
 
-void write_text(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, const Origin& origin,
-                bool is_obj) {
-  const bool placed = !is_zero(origin);
-  for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
-    Line line(is_obj ? "v" : "");
+OffColours colours_of(const MeshFrame& frame) {
+  const KnownAttributes known = known_attributes(frame.properties);
+  if (!known.colour || values_of(frame, *known.colour).empty()) return {};
+  const Attribute& attribute = frame.properties.attributes[*known.colour];
+  auto value_index = vertex_values(frame.mesh, attribute);
+  if (!value_index) return {};
+  return {values_of(frame, *known.colour), attribute.components, std::move(*value_index)};
+}
+
+void write_off(AtomicFile& file, const MeshFrame& frame) {
+  const bool placed = !is_zero(frame.origin);
+  const PolygonFaces faces(frame.mesh, frame.properties);
+  const OffColours colours = colours_of(frame);
+  const bool bytes = are_bytes(colours.values);
+  file.write(fmt::format("{}OFF\n{} {} 0\n", colours.components > 0 ? "C" : "", frame.mesh.vertex_count,
+                         faces.size()));
+  TextLine line;
+  for (std::size_t vertex = 0; vertex < frame.mesh.vertex_count; ++vertex) {
+    line.begin("");
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float coordinate = positions[3 * vertex + axis];
-      placed ? line.add(origin[axis] + double{coordinate}) : line.add(coordinate);
+      const float coordinate = frame.positions[3 * vertex + axis];
+      placed ? line.add(frame.origin[axis] + double{coordinate}) : line.add(coordinate);
+    }
+    if (colours.components > 0) {
+      const float* colour = &colours.values[colours.components * colours.value_index[vertex]];
+      // Four numbers, as readers expect of a COFF; whole ones count to 255, others to 1.
+      for (std::size_t i = 0; i < 4; ++i) {
+        const float part = i < colours.components ? colour[i] : 1;
+        if (bytes) {
+          line.add(std::lround(255 * part));
+        } else {
+          line.add_text(fmt::format(" {:#}", part));
+        }
+      }
     }
     file.write(line.finish());
   }
-  for (const Face& face : mesh.faces) {
-    Line line(is_obj ? "f" : "3");
-    for (const std::uint32_t index : face) line.add(std::uint64_t{index} + (is_obj ? 1 : 0));
+  for (std::size_t face = 0; face < faces.size(); ++face) {
+    line.begin("").add(faces[face].size());
+    for (const CornerIndex corner : faces[face]) line.add(frame.mesh.faces[corner / 3][corner % 3]);
     file.write(line.finish());
-  }
-}
-
-void write_obj(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, const std::string& name,
-               const Origin& origin) {
-  file.write(kObjMark);
-  if (!name.empty()) {
-    std::string one_line = name;
-    std::replace_if(
-        one_line.begin(), one_line.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)); },
-        ' ');
-    file.write("o " + one_line + "\n");
-  }
-  write_text(file, mesh, positions, origin, true);
-}
-
-void write_off(AtomicFile& file, const Mesh& mesh, std::span<const float> positions, const Origin& origin) {
-  file.write(fmt::format("OFF\n{} {} 0\n", mesh.vertex_count, mesh.faces.size()));
-  write_text(file, mesh, positions, origin, false);
-}
-
-void write_float(AtomicFile& file, float value) {
-  std::array<char, 4> bytes;
-  store32(bytes.data(), value, false);
-  file.write(bytes.data(), bytes.size());
-}
-
-void write_double(AtomicFile& file, double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  std::array<char, 8> bytes;
-  store32(bytes.data(), static_cast<std::uint32_t>(bits), false);
-  store32(bytes.data() + 4, static_cast<std::uint32_t>(bits >> 32), false);
-  file.write(bytes.data(), bytes.size());
-}
-
-void write_colour(AtomicFile& file, const Colour& colour) {
-  const auto byte = [](float part) { return static_cast<char>(std::lround(255 * part)); };
-  const std::array<char, 3> bytes = {byte(colour.red), byte(colour.green), byte(colour.blue)};
-  file.write(bytes.data(), bytes.size());
-}
-
-void write_ply(AtomicFile& file, const Mesh& mesh, std::span<const float> positions,
-               const VertexAttributes& attributes, const Origin& origin = {}) {
-  const bool placed = !is_zero(origin);
-  std::string properties;
-  if (!attributes.colours.empty())
-    properties += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  for (const auto& [name, values] : attributes.named) properties += "property float " + name + "\n";
-  file.write(fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {1}\n"
-      "property {0} x\nproperty {0} y\nproperty {0} z\n{2}"
-      "element face {3}\nproperty list uchar {4} vertex_indices\nend_header\n",
-      placed ? "double" : "float", mesh.vertex_count, properties, mesh.faces.size(),
-      mesh.vertex_count > std::uint32_t{std::numeric_limits<std::int32_t>::max()} ? "uint" : "int"));
-  for (std::size_t vertex = 0; vertex < mesh.vertex_count; ++vertex) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float coordinate = positions[3 * vertex + axis];
-      placed ? write_double(file, origin[axis] + double{coordinate}) : write_float(file, coordinate);
-    }
-    if (!attributes.colours.empty()) write_colour(file, attributes.colours[vertex]);
-    for (const auto& [name, values] : attributes.named) write_float(file, values[vertex]);
-  }
-  for (const Face& face : mesh.faces) {
-    std::array<char, 13> bytes;
-    bytes[0] = 3;
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      store32(bytes.data() + 1 + 4 * corner, face[corner], false);
-    file.write(bytes.data(), bytes.size());
   }
 }
 
@@ -167,29 +109,21 @@ void write_stl(AtomicFile& file, const Mesh& mesh, std::span<const float> positi
 
 }  // namespace
 
-void write_mesh(AtomicFile& file, MeshFormat format, const Mesh& mesh, std::span<const float> positions,
-                const std::string& name, const Origin& origin) {
+void write_mesh(AtomicFile& file, MeshFormat format, const MeshFrame& frame) {
   switch (format) {
     case MeshFormat::kObj:
-      write_obj(file, mesh, positions, name, origin);
+      write_obj(file, frame);
       break;
     case MeshFormat::kPly:
-      write_ply(file, mesh, positions, {}, origin);
+      write_ply(file, frame);
       break;
     case MeshFormat::kOff:
-      write_off(file, mesh, positions, origin);
+      write_off(file, frame);
       break;
     case MeshFormat::kStl:
-      write_stl(file, mesh, positions);
+      write_stl(file, frame.mesh, frame.positions);
       break;
   }
-}
-
-void write_coloured_ply(const std::string& path, const Mesh& mesh, std::span<const float> positions,
-                        const VertexAttributes& attributes) {
-  AtomicFile file(path);
-  write_ply(file, mesh, positions, attributes);
-  file.finish();
 }
 
 }  // namespace tvg::cli

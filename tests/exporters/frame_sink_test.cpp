@@ -45,7 +45,7 @@ std::vector<std::string> write_all(const std::string& path, const Sequence& sequ
   const auto sink = open_sink(path, options);
   std::optional<std::uint64_t> count;
   if (count_known) count = sequence.frames.size();
-  sink->begin_mesh(sequence.mesh, sequence.metadata, count);
+  sink->begin_mesh(sequence.mesh, {}, sequence.metadata, count);
   for (const FramePositions& frame : sequence.frames) sink->write_frame(frame);
   sink->finish();
   return sink->files();
@@ -90,7 +90,7 @@ TEST_F(FrameSinkTest, CorrectsTheHeaderWhereFewerOrMoreFramesCome) {
     std::string exact;
     for (const std::uint64_t announced : {5U, 9U, 2U, 0U}) {
       const auto sink = open_sink(folder_.path(name), {});
-      sink->begin_mesh(sequence_.mesh, sequence_.metadata, announced);
+      sink->begin_mesh(sequence_.mesh, {}, sequence_.metadata, announced);
       for (const FramePositions& frame : sequence_.frames) sink->write_frame(frame);
       sink->finish();
       if (announced == 5) exact = folder_.read(name);
@@ -179,9 +179,9 @@ TEST_F(FrameSinkTest, ConnectivityMayChangeInSequencesAndNotInCaches) {
   const FramePositions triangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const auto write_both = [&](const std::string& name) {
     const auto sink = open_sink(folder_.path(name), {});
-    sink->begin_mesh(sequence_.mesh, {}, {});
+    sink->begin_mesh(sequence_.mesh, {}, {}, {});
     sink->write_frame(sequence_.frames[0]);
-    sink->begin_mesh(other.mesh, {}, {});
+    sink->begin_mesh(other.mesh, {}, {}, {});
     sink->write_frame(triangle);
     sink->finish();
   };
@@ -191,7 +191,7 @@ TEST_F(FrameSinkTest, ConnectivityMayChangeInSequencesAndNotInCaches) {
   for (const std::string name : {"c.pc2", "c.mdd"}) {
     const ToolError error = thrown_by([&] { write_both(name); });
     EXPECT_EQ(error.status(), ExitStatus::kUsage);
-    EXPECT_THAT(error.what(), HasSubstr("the connectivity changes at frame 1"));
+    EXPECT_THAT(error.what(), HasSubstr("the mesh changes at frame 1"));
   }
   EXPECT_THAT(folder_.names(), ElementsAre("f_0000.obj", "f_0001.obj"));
 }
@@ -199,17 +199,17 @@ TEST_F(FrameSinkTest, ConnectivityMayChangeInSequencesAndNotInCaches) {
 TEST_F(FrameSinkTest, LeavesNothingBrokenWhereItIsNotFinished) {
   for (const std::string name : {"a.pc2", "a.mdd", "b.obj"}) {
     const auto sink = open_sink(folder_.path(name), {});
-    sink->begin_mesh(sequence_.mesh, {}, {});
+    sink->begin_mesh(sequence_.mesh, {}, {}, {});
     sink->write_frame(sequence_.frames[0]);
   }
   EXPECT_THAT(folder_.names(), IsEmpty());
   const auto sink = open_sink(folder_.path("c_%d.off"), {});
-  sink->begin_mesh(sequence_.mesh, {}, {});
+  sink->begin_mesh(sequence_.mesh, {}, {}, {});
   for (const FramePositions& frame : sequence_.frames) sink->write_frame(frame);
   EXPECT_EQ(sink->files().size(), 4U);
   EXPECT_EQ(thrown_by([&] {
               const auto empty = open_sink(folder_.path("d.pc2"), {});
-              empty->begin_mesh(sequence_.mesh, {}, {});
+              empty->begin_mesh(sequence_.mesh, {}, {}, {});
               empty->finish();
             }).status(),
             ExitStatus::kInvalidInput);
@@ -283,7 +283,7 @@ TEST_F(FrameSinkTest, RefusesStandardOutputWhereTheCountIsUnknownOrWrong) {
   EXPECT_THAT(unknown.what(), HasSubstr("begins with its number of frames"));
   const ToolError wrong = thrown_by([&] {
     const auto sink = open_sink("-", {});
-    sink->begin_mesh(sequence_.mesh, {}, 9);
+    sink->begin_mesh(sequence_.mesh, {}, {}, 9);
     sink->write_frame(sequence_.frames[0]);
     sink->finish();
   });

@@ -38,7 +38,7 @@ std::string written(const fs::path& folder, const std::string& name, int frames)
   tvg::cli::SinkOptions options;
   options.mesh_beside_cache = false;
   const auto sink = tvg::cli::open_sink(path, options);
-  sink->begin_mesh(tetrahedron(), {{"name", "toy"}, {"fps", "30"}}, frames);
+  sink->begin_mesh(tetrahedron(), {}, {{"name", "toy"}, {"fps", "30"}}, frames);
   for (int frame = 0; frame < frames; ++frame) {
     const float t = 0.1F * static_cast<float>(frame);
     sink->write_frame(tvg::FramePositions{t, 0, 0, 1 + t, 0, 0, t, 1, 0.125F, t, -0.5F, 1 + t});
