@@ -1,7 +1,7 @@
 #include "base/allocation.hpp"
 #include "base/errors.hpp"
 #include "base/stream_error.hpp"
-#include "geometry/property_checks.hpp"
+#include "geometry/property_fault.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,5 +1,5 @@
 #include "base/errors.hpp"
-#include "geometry/property_checks.hpp"
+#include "geometry/property_fault.hpp"
 #include "metrics/attribute_difference.hpp"
 #include "metrics/face_match.hpp"
 #include "metrics/polygon_match.hpp"
@@ -86,17 +86,6 @@ std::vector<AttributePair> pair_attributes(const std::vector<Attribute>& origina
   return pairs;
 }
 
-AttributeDifference describe(const Attribute& attribute, Presence presence) {
-  AttributeDifference difference;
-  difference.name = attribute.name;
-  difference.decoded_name = attribute.name;
-  difference.kind = attribute.kind;
-  difference.domain = attribute.domain;
-  difference.animated = attribute.animated;
-  difference.presence = presence;
-  return difference;
-}
-
 std::uint64_t material_count(const MeshProperties& properties) {
   std::set<std::string> names;
   for (const Part& part : properties.parts) {
@@ -125,7 +114,10 @@ class PropertyComparison::State {
         decoded_(decoded),
         match_(match_faces(original.mesh.faces, decoded.mesh.faces)),
         pairs_(pair_attributes(original.properties.attributes, decoded.properties.attributes)) {
-    for (const AttributePair& pair : pairs_) sums_.emplace_back(kind_of(pair));
+    for (const AttributePair& pair : pairs_) {
+      report_.attributes.push_back(describe(pair));
+      sums_.emplace_back(report_.attributes.back().kind);
+    }
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       if (in_both(pairs_[i]) && !animated(pairs_[i]))
         compare(
@@ -167,20 +159,7 @@ class PropertyComparison::State {
 
   PropertyReport report() const {
     PropertyReport report = report_;
-    for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      const AttributePair& pair = pairs_[i];
-      if (!in_both(pair)) {
-        report.attributes.push_back(pair.decoded == kNone
-                                        ? describe(original_attribute(pair), Presence::kOriginalOnly)
-                                        : describe(decoded_attribute(pair), Presence::kDecodedOnly));
-        continue;
-      }
-      AttributeDifference difference = describe(original_attribute(pair), Presence::kBoth);
-      difference.decoded_name = decoded_attribute(pair).name;
-      difference.animated = animated(pair);
-      sums_[i].give(difference);
-      report.attributes.push_back(std::move(difference));
-    }
+    for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i].give(report.attributes[i]);
     return report;
   }
 
@@ -194,8 +173,17 @@ class PropertyComparison::State {
   const Attribute& decoded_attribute(const AttributePair& pair) const {
     return decoded_.properties.attributes[pair.decoded];
   }
-  AttributeKind kind_of(const AttributePair& pair) const {
-    return pair.original != kNone ? original_attribute(pair).kind : decoded_attribute(pair).kind;
+  AttributeDifference describe(const AttributePair& pair) const {
+    const Attribute& attribute = pair.original != kNone ? original_attribute(pair) : decoded_attribute(pair);
+    AttributeDifference difference;
+    difference.name = attribute.name;
+    difference.decoded_name = pair.decoded != kNone ? decoded_attribute(pair).name : attribute.name;
+    difference.kind = attribute.kind;
+    difference.domain = attribute.domain;
+    difference.animated = in_both(pair) ? animated(pair) : attribute.animated;
+    if (!in_both(pair))
+      difference.presence = pair.decoded == kNone ? Presence::kOriginalOnly : Presence::kDecodedOnly;
+    return difference;
   }
   bool animated(const AttributePair& pair) const {
     return original_attribute(pair).animated || decoded_attribute(pair).animated;
@@ -236,7 +224,7 @@ class PropertyComparison::State {
   FaceMatch match_;
   std::vector<AttributePair> pairs_;
   std::vector<DifferenceSum> sums_;  ///< [pair]
-  PropertyReport report_;            ///< without attributes
+  PropertyReport report_;            ///< without the sums
 };
 
 PropertyComparison::PropertyComparison(std::unique_ptr<State> state) : state_(std::move(state)) {}

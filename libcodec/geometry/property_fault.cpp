@@ -1,4 +1,4 @@
-#include "geometry/property_checks.hpp"
+#include "geometry/property_fault.hpp"
 
 #include <algorithm>
 #include <cstddef>
