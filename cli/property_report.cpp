@@ -23,7 +23,7 @@ const char* side_with(Presence presence) {
 
 /// "texcoord 'UVMap'", or how else it is called on the decoded side.
 std::string title_of(const AttributeDifference& attribute) {
-  std::string title = name_of(attribute.kind);
+  std::string title = kind_name(attribute.kind);
   if (!attribute.name.empty()) title += fmt::format(" '{}'", attribute.name);
   if (attribute.decoded_name != attribute.name)
     title += attribute.decoded_name.empty() ? " (now without a name)"
@@ -65,7 +65,7 @@ nlohmann::json json_of(const CountDifference& count) {
 
 }  // namespace
 
-const char* name_of(AttributeKind kind) {
+const char* kind_name(AttributeKind kind) {
   switch (kind) {
     case AttributeKind::kTexcoord:
       return "texcoord";
@@ -78,7 +78,7 @@ const char* name_of(AttributeKind kind) {
   }
 }
 
-const char* name_of(AttributeDomain domain) {
+const char* domain_name(AttributeDomain domain) {
   switch (domain) {
     case AttributeDomain::kVertex:
       return "vertex";
@@ -103,8 +103,8 @@ void add_to_json(const PropertyReport& report, nlohmann::json& json) {
   for (const AttributeDifference& attribute : report.attributes) {
     json["attributes"].push_back({{"name", attribute.name},
                                   {"decoded_name", attribute.decoded_name},
-                                  {"kind", name_of(attribute.kind)},
-                                  {"domain", name_of(attribute.domain)},
+                                  {"kind", kind_name(attribute.kind)},
+                                  {"domain", domain_name(attribute.domain)},
                                   {"animated", attribute.animated},
                                   {"side", side_with(attribute.presence)},
                                   {"unit", attribute.kind == AttributeKind::kNormal ? "degrees" : "value"},

@@ -8,9 +8,9 @@
 namespace tvg::cli {
 
 /// "texcoord", "normal", "colour", "generic".
-const char* name_of(AttributeKind kind);
+const char* kind_name(AttributeKind kind);
 /// "vertex", "corner", "part".
-const char* name_of(AttributeDomain domain);
+const char* domain_name(AttributeDomain domain);
 
 /// A line for each attribute and for parts, materials and polygons, to standard output; nothing where neither
 /// side has any.
