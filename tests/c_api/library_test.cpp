@@ -70,6 +70,7 @@ TEST_F(ExampleTest, DecodeToMemoryFindsTheSameFrameAgain) {
 TEST_F(ExampleTest, WhatEncodeWaveWritesPrintFramesPrints) {
   const std::string text = output_of(TVG_EXAMPLES "/encode_wave | " TVG_EXAMPLES "/print_frames");
   EXPECT_NE(text.find("mesh: 1089 vertices, 2048 faces\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nattribute 'uv': 1089 values of 2 numbers\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\nframe 59: "), std::string::npos) << text;
 }
 
