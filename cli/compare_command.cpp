@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/compared_sides.hpp"
 #include "cli/input_options.hpp"
+#include "cli/property_report.hpp"
 #include "cli/surface_report.hpp"
 #include "encoder/importers/open_source.hpp"
 #include "encoder/importers/scene_file.hpp"
@@ -88,6 +89,7 @@ ComparedSides open_sides(const CompareArguments& arguments) {
   if (!arguments.fps.empty()) static_cast<void>(parse_rate(arguments.fps));
   ComparedSides sides{{}, {}, arguments.original, arguments.decoded, arguments.quiet};
   sides.decoded = open_side(arguments.decoded, arguments, arguments.fps);
+  sides.same_properties = is_cache_file(arguments.original) && is_cache_file(arguments.decoded);
   sides.original = open_side(arguments.original, arguments,
                              arguments.fps.empty() ? rate_of(*sides.decoded) : arguments.fps,
                              shared_origin(arguments.decoded, *sides.decoded));
@@ -126,12 +128,21 @@ nlohmann::json json_of(const ComparisonReport& report) {
   return json;
 }
 
+PropertyReport properties_together(const std::vector<Stretch>& stretches) {
+  std::vector<PropertyReport> reports;
+  reports.reserve(stretches.size());
+  for (const Stretch& stretch : stretches) reports.push_back(stretch.properties);
+  return together(reports);
+}
+
 void print_json(const std::vector<Stretch>& stretches) {
   nlohmann::json json = json_of(together(stretches));
+  add_to_json(properties_together(stretches), json);
   if (stretches.size() > 1) {
     for (const Stretch& stretch : stretches) {
       nlohmann::json one = json_of(stretch.report);
       one["first_frame"] = stretch.first_frame;
+      add_to_json(stretch.properties, one);
       json["stretches"].push_back(std::move(one));
     }
   }
@@ -161,10 +172,15 @@ void print_text(const ComparisonReport& report) {
 
 /// Each stretch by itself, and what holds for all.
 void print_text(const std::vector<Stretch>& stretches) {
-  if (stretches.size() == 1) return print_text(stretches[0].report);
+  if (stretches.size() == 1) {
+    print_text(stretches[0].report);
+    print_property_report(stretches[0].properties);
+    return;
+  }
   for (const Stretch& stretch : stretches) {
     fmt::print("frames {}-{}: ", stretch.first_frame, stretch.first_frame + stretch.report.frames - 1);
     print_text(stretch.report);
+    print_property_report(stretch.properties);
   }
   const ComparisonReport all = together(stretches);
   fmt::print("all {} frames of {} meshes: maximum, coordinate {:.6g}; RMS, coordinate {:.6g}\n", all.frames,

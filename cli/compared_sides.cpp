@@ -1,11 +1,13 @@
 #include "cli/compared_sides.hpp"
 
+#include "cli/compared_properties.hpp"
 #include "tool/progress.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <utility>
 
 namespace tvg::cli {
@@ -45,15 +47,18 @@ class Comparing {
       if (!same_connectivity(original_.mesh(), decoded_.mesh())) return std::nullopt;
       const std::uint64_t first = frame_;
       SequenceComparison comparison(original_.mesh(), settings_);
-      const bool more = compare_stretch(comparison);
-      stretches_.push_back({first, comparison.report()});
+      std::optional<ComparedProperties> properties;
+      if (!sides_.same_properties) properties.emplace(original_, decoded_, sides_.decoded_name);
+      const bool more = compare_stretch(comparison, properties);
+      stretches_.push_back(
+          {first, comparison.report(), properties ? properties->report() : PropertyReport()});
       if (!more) return std::move(stretches_);
     }
   }
 
  private:
   /// Compares up to the next mesh (true) or the end.
-  bool compare_stretch(SequenceComparison& comparison) {
+  bool compare_stretch(SequenceComparison& comparison, std::optional<ComparedProperties>& properties) {
     for (;; ++frame_) {
       const SourceStep a = read(original_, a_);
       const SourceStep b = read(decoded_, b_);
@@ -61,6 +66,7 @@ class Comparing {
       if (a != SourceStep::kFrame) return a == SourceStep::kMesh;
       if (Status status = comparison.add_frame(a_, b_); !status.ok())
         throw tool_error(sides_.decoded_name, status.error());
+      if (properties) properties->add_frame();
       bar_.update(frame_ + 1, original_.frame_count());
     }
   }

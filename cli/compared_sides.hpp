@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <tvg/metrics.hpp>
+#include <tvg/property_metrics.hpp>
 #include <tvg/source.hpp>
 
 namespace tvg::cli {
@@ -14,13 +15,15 @@ namespace tvg::cli {
 struct ComparedSides {
   std::unique_ptr<FrameSource> original, decoded;
   std::string original_name, decoded_name;
-  bool quiet = false;  ///< show no progress
+  bool quiet = false;            ///< show no progress
+  bool same_properties = false;  ///< both are frames of one mesh file: what else it says, both have
 };
 
 /// What the frames of one mesh have in common.
 struct Stretch {
   std::uint64_t first_frame = 0;
   ComparisonReport report;
+  PropertyReport properties = {};  ///< empty where both sides have those of one file
 };
 
 /// Compares both sides frame by frame, over changes of the mesh that both have: a stretch for each mesh.

@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/properties_info.hpp"
 #include "cli/scene_info.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
@@ -73,12 +74,16 @@ struct StreamSummary {
 /// Bytes by what they serve; the last takes what is left.
 std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summary) {
   double connectivity = 0, order = 0, shape = 0, levels = 0, lods = 0, flags = 0, planes = 0, data = 0;
+  double parts = 0, attributes = 0, polygons = 0;
   for (const SurveyedMesh& mesh : summary.stream.meshes) {
     connectivity += static_cast<double>(mesh.parts.connectivity_bytes);
     order += static_cast<double>(mesh.parts.order_bytes);
     shape += static_cast<double>(mesh.parts.shape_bytes);
     levels += static_cast<double>(mesh.parts.levels_bytes);
     lods += static_cast<double>(mesh.parts.lods_bytes);
+    parts += static_cast<double>(mesh.parts.parts_bytes);
+    attributes += static_cast<double>(mesh.parts.attributes_bytes);
+    polygons += static_cast<double>(mesh.parts.polygons_bytes);
   }
   for (const GopInfo& gop : summary.stream.gops) flags += static_cast<double>(gop.flag_bytes);
   for (const SurveyedData& one : summary.stream.data) data += static_cast<double>(one.bytes);
@@ -90,7 +95,10 @@ std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summar
                                                         {"lods", lods},
                                                         {"flags", flags},
                                                         {"planes", planes},
-                                                        {"data", data}};
+                                                        {"data", data},
+                                                        {"parts", parts},
+                                                        {"attributes", attributes},
+                                                        {"polygons", polygons}};
   double left = static_cast<double>(summary.stream.bytes);
   for (const auto& [purpose, bytes] : result) left -= bytes;
   if (!summary.decoded) {
@@ -211,6 +219,7 @@ void print_json(const StreamSummary& summary) {
     json["lods"].push_back(
         {{"levels", lod.levels}, {"vertices", lod.vertices}, {"faces", lod.faces}, {"bytes", lod.bytes}});
   }
+  add_to_json(summary.last_mesh(), json);
   json["damages"] = summary.damages;
   for (const auto& [purpose, bytes] : purposes(summary)) json["bytes_by_purpose"][purpose] = bytes;
   json["bits_per_coordinate"] = bits_per_coordinate(stream.bytes, summary.vertex_frames(), 1);
@@ -328,6 +337,7 @@ void print_text(const StreamSummary& summary) {
   }
   if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
   print_purposes(summary);
+  print_properties(mesh);
   print_data(stream);
   print_lods(mesh.parts);
   print_planes(summary);

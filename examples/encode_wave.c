@@ -28,6 +28,23 @@ static uint32_t make_faces(uint32_t faces[][3]) {
   return count;
 }
 
+/* Where each vertex lies on a texture, from 0 to 1. */
+static tvg_code add_texture_coordinates(tvg_encoder* encoder) {
+  static float coordinates[kSide * kSide][2];
+  const tvg_attribute attribute = {.struct_size = sizeof attribute,
+                                   .name = "uv",
+                                   .kind = TVG_ATTRIBUTE_TEXCOORD,
+                                   .domain = TVG_DOMAIN_VERTEX,
+                                   .components = 2,
+                                   .values = coordinates,
+                                   .value_count = kSide * kSide};
+  for (int v = 0; v < kSide * kSide; ++v) {
+    coordinates[v][0] = (float)(v % kSide) / (kSide - 1);
+    coordinates[v][1] = (float)(v / kSide) / (kSide - 1);
+  }
+  return tvg_encoder_add_attribute(encoder, &attribute);
+}
+
 static void make_frame(int frame, float positions[][3]) {
   for (int v = 0; v < kSide * kSide; ++v) {
     positions[v][0] = (float)(v % kSide);
@@ -46,6 +63,7 @@ int main(void) {
   options.fine_bits = options.coarse_bits = 12;
   code = tvg_encoder_create(&options, write_to_stdout, NULL, &encoder);
   if (code == TVG_OK) code = tvg_encoder_set_metadata(encoder, "fps", "30");
+  if (code == TVG_OK) code = add_texture_coordinates(encoder);
   if (code == TVG_OK) code = tvg_encoder_set_mesh(encoder, kSide * kSide, faces[0], make_faces(faces));
   for (int frame = 0; frame < kFrames && code == TVG_OK; ++frame) {
     make_frame(frame, positions);

@@ -5,6 +5,13 @@
 
 #include <tvg/tvg.h>
 
+static void print_attributes(const tvg_decoder* decoder) {
+  tvg_attribute_info attribute = {.struct_size = sizeof attribute};
+  for (uint32_t i = 0; tvg_decoder_get_attribute(decoder, i, &attribute) == TVG_OK; ++i)
+    printf("attribute '%s': %u values of %u numbers\n", attribute.name, (unsigned)attribute.value_count,
+           (unsigned)attribute.components);
+}
+
 /* Makes room for the frames of a mesh; null where memory is short. */
 static float* use_mesh(const tvg_decoder* decoder, float* positions, size_t* size) {
   tvg_mesh_info mesh = {.struct_size = sizeof mesh};
@@ -14,6 +21,7 @@ static float* use_mesh(const tvg_decoder* decoder, float* positions, size_t* siz
   more = realloc(positions, *size);
   if (more == NULL) free(positions);
   printf("mesh: %u vertices, %u faces\n", (unsigned)mesh.vertex_count, (unsigned)mesh.face_count);
+  print_attributes(decoder);
   return more;
 }
 

@@ -22,7 +22,7 @@ void StreamSource::open() {
     const Decoder& decoder = reader_->decoder();
     switch (reader_->next()) {
       case Decoder::Event::kMesh:
-        mesh_ = decoder.mesh();
+        take_mesh();
         return;
       case Decoder::Event::kError:
         throw tool_error(path_, decoder.error());
@@ -34,6 +34,11 @@ void StreamSource::open() {
         break;
     }
   }
+}
+
+void StreamSource::take_mesh() {
+  mesh_ = reader_->decoder().mesh();
+  properties_ = reader_->decoder().properties();
 }
 
 Error StreamSource::named(Error error) const {
@@ -71,7 +76,7 @@ Result<bool> StreamSource::read_frame(std::span<float> positions) {
 Result<bool> StreamSource::begin_next_mesh() {
   if (!changed_) return false;
   changed_ = false;
-  mesh_ = reader_->decoder().mesh();
+  take_mesh();
   return true;
 }
 

@@ -19,6 +19,7 @@ class StreamSource final : public FrameSource {
   explicit StreamSource(std::string path);
 
   const Mesh& mesh() const override { return mesh_; }
+  const MeshProperties& properties() const override { return properties_; }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
   std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
   Result<bool> read_frame(std::span<float> positions) override;
@@ -28,11 +29,13 @@ class StreamSource final : public FrameSource {
 
  private:
   void open();
+  void take_mesh();
   Error named(Error error) const;
 
   std::string path_;
   std::unique_ptr<StreamReader> reader_;
   Mesh mesh_;
+  MeshProperties properties_;
   bool changed_ = false;  // the last error was another mesh
   std::optional<std::uint64_t> frame_count_;
 };

@@ -1,3 +1,4 @@
+#include "c_api/decoder_handle.hpp"
 #include "c_api/support.hpp"
 
 #include <algorithm>
@@ -15,57 +16,16 @@
 // The C interface: tvg::Decoder, with every call checked for whether it means anything now. Nothing throws
 // out of here.
 
-/// What a handle stands for.
-struct tvg_decoder {
-  explicit tvg_decoder(const tvg::DecoderLimits& limits) : decoder(limits) {}
-
-  tvg::Decoder decoder;
-  bool has_head = false;
-  bool has_mesh = false;
-  bool has_gop = false;
-  bool has_frame = false;
-  bool has_damage = false;
-  std::uint64_t frame_count = TVG_UNKNOWN;
-  std::string damage_text;
-  tvg_code error_code = TVG_OK;
-  std::string error_text;
-  std::vector<float> positions, normals;  ///< [vertex][xyz], once normals were asked for
-};
-
 namespace {
 
 using tvg::Decoder;
-using tvg::Error;
 using tvg::c_api::code_of;
+using tvg::c_api::fail;
 using tvg::c_api::fits;
 using tvg::c_api::give;
+using tvg::c_api::guarded;
 
 static_assert(TVG_TAIL_BYTES == tvg::kTailBytes);
-
-/// Remembers what went wrong and gives its code back.
-tvg_code fail(tvg_decoder& decoder, tvg_code code, const char* text) {
-  decoder.error_code = code;
-  try {
-    decoder.error_text = text;
-  } catch (const std::exception&) {
-    decoder.error_text.clear();
-  }
-  return code;
-}
-
-tvg_code fail(tvg_decoder& decoder, const Error& error) {
-  return fail(decoder, code_of(error), error.describe().c_str());
-}
-
-/// Runs what may throw for want of memory.
-template <class Work>
-tvg_code guarded(tvg_decoder& decoder, Work work) {
-  try {
-    return work();
-  } catch (const std::exception&) {
-    return fail(decoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");
-  }
-}
 
 tvg_event event_of(tvg_decoder& handle, Decoder::Event event) {
   const Decoder& decoder = handle.decoder;
@@ -75,9 +35,14 @@ tvg_event event_of(tvg_decoder& handle, Decoder::Event event) {
       return TVG_EVENT_HEAD;
     case Decoder::Event::kMetadata:
       return TVG_EVENT_METADATA;
+    case Decoder::Event::kData:
+      handle.data_name = decoder.data().name;
+      handle.has_data = true;
+      return TVG_EVENT_DATA;
     case Decoder::Event::kMesh:
       handle.has_mesh = true;
       handle.has_gop = false;
+      handle.view.reset();
       return TVG_EVENT_MESH;
     case Decoder::Event::kGop:
       handle.has_gop = true;
@@ -116,8 +81,7 @@ tvg_code tvg_limits_init(tvg_limits* limits) {
   const tvg::DecoderLimits defaults;
   return give<tvg_limits>({sizeof(tvg_limits), defaults.vertices, defaults.faces, defaults.frames_per_gop,
                            defaults.packet_bytes, defaults.memory, defaults.meshes, defaults.mesh_bytes,
-                           defaults.plan_bytes, defaults.components, defaults.plans,
-                           defaults.property_bytes},
+                           defaults.plan_bytes, defaults.components, defaults.plans, defaults.property_bytes},
                           limits);
 }
 
@@ -132,8 +96,7 @@ tvg_decoder* tvg_decoder_create(const tvg_limits* limits) {
   try {
     return new tvg_decoder(tvg::DecoderLimits{
         known.vertices, known.faces, known.frames_per_gop, known.packet_bytes, known.meshes, known.mesh_bytes,
-        known.memory_bytes, known.plan_bytes, known.components, known.plans,
-        known.property_bytes});
+        known.memory_bytes, known.plan_bytes, known.components, known.plans, known.property_bytes});
   } catch (const std::exception&) {
     return nullptr;
   }
@@ -147,6 +110,7 @@ tvg_code tvg_decoder_push(tvg_decoder* decoder, const void* bytes, size_t size) 
   if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
   if (bytes == nullptr && size > 0)
     return fail(*decoder, TVG_ERROR_INVALID_ARGUMENT, "there are no bytes at null");
+  decoder->has_data = false;
   if (size > 0) decoder->decoder.push({static_cast<const std::uint8_t*>(bytes), size});
   return TVG_OK;
 }
@@ -161,10 +125,11 @@ tvg_event tvg_decoder_poll(tvg_decoder* decoder) {
   if (decoder == nullptr) return TVG_EVENT_ERROR;
   decoder->has_frame = false;
   decoder->has_damage = false;
+  decoder->has_data = false;
   try {
     for (;;) {
       const Decoder::Event event = decoder->decoder.poll();
-      if (event != Decoder::Event::kChunk && event != Decoder::Event::kData) return event_of(*decoder, event);
+      if (event != Decoder::Event::kChunk) return event_of(*decoder, event);
     }
   } catch (const std::exception&) {
     fail(*decoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");
@@ -252,10 +217,7 @@ tvg_code tvg_decoder_compute_normals(tvg_decoder* decoder, void* normals, size_t
                 "the buffer for normals is too small, or the stride below 12");
   }
   return guarded(*decoder, [&] {
-    decoder->positions.resize(3 * std::size_t{mesh.vertex_count});
-    decoder->normals.resize(decoder->positions.size());
-    decoder->decoder.copy_positions(decoder->positions.data());
-    tvg::vertex_normals(mesh.faces, decoder->positions, decoder->normals);
+    decoder->find_normals();
     auto* const target = static_cast<std::byte*>(normals);
     for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
       std::memcpy(target + stride * v, decoder->normals.data() + 3 * v, 12);
@@ -315,6 +277,7 @@ tvg_code tvg_decoder_seek(tvg_decoder* decoder, uint64_t frame, uint64_t* offset
     if (!result) return fail(*decoder, result.error());
     decoder->has_frame = false;
     decoder->has_gop = false;
+    decoder->has_data = false;
     *offset = *result;
     return TVG_OK;
   });

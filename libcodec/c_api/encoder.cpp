@@ -1,3 +1,4 @@
+#include "c_api/encoder_handle.hpp"
 #include "c_api/support.hpp"
 
 #include <algorithm>
@@ -19,43 +20,16 @@
 // The C interface to encoding: tvg::Encoder, SequenceComparison and join(). Nothing throws out of here.
 
 using tvg::c_api::code_of;
+using tvg::c_api::fail;
 using tvg::c_api::fits;
 using tvg::c_api::give;
-
-struct tvg_encoder {
-  tvg::EncodeOptions options;
-  tvg::ByteSink sink;
-  std::optional<tvg::Encoder> encoder;  ///< once there is a mesh
-  std::uint32_t vertex_count = 0;
-  std::vector<float> positions;  ///< [vertex][xyz]
-  std::string error_text;
-};
+using tvg::c_api::guarded;
 
 struct tvg_comparer {
   tvg::SequenceComparison comparison;
 };
 
 namespace {
-
-tvg_code fail(tvg_encoder& encoder, tvg_code code, const char* text) {
-  try {
-    encoder.error_text = text;
-  } catch (const std::exception&) {
-    encoder.error_text.clear();
-  }
-  return code;
-}
-
-/// Runs what may throw for want of memory.
-template <class Work>
-tvg_code guarded(tvg_encoder& encoder, Work work) {
-  try {
-    const tvg::Status status = work();
-    return status.ok() ? TVG_OK : fail(encoder, code_of(status.error()), status.error().describe().c_str());
-  } catch (const std::exception&) {
-    return fail(encoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");
-  }
-}
 
 tvg::ByteSink sink_of(tvg_sink sink, void* user) {
   return [sink, user](std::span<const std::uint8_t> bytes) {
@@ -77,6 +51,15 @@ int bits_of(std::uint32_t bits) {
   return static_cast<int>(std::min(bits, 1000u));
 }
 
+int attribute_bits_of(std::uint32_t given, int usual) {
+  if (given == 0) return usual;
+  return given == TVG_EXACT_BITS ? tvg::Attribute::kExact : bits_of(given);
+}
+
+std::uint32_t bits_in_c(int bits) {
+  return bits == tvg::Attribute::kExact ? TVG_EXACT_BITS : static_cast<std::uint32_t>(bits);
+}
+
 tvg::EncodeOptions options_of(const tvg_encoder_options& given) {
   tvg::EncodeOptions options;
   options.fine_bits = bits_of(given.fine_bits);
@@ -96,6 +79,12 @@ tvg::EncodeOptions options_of(const tvg_encoder_options& given) {
   options.period_frames = given.period_frames;
   if (given.effort != 0) options.effort = static_cast<int>(std::min(given.effort, 1000u));
   if (given.max_error != 0) options.max_error = tvg::ErrorBound{given.max_error, false};
+  const tvg::AttributeBits usual;
+  options.attribute_bits = {attribute_bits_of(given.texcoord_bits, usual.texcoord),
+                            attribute_bits_of(given.normal_bits, usual.normal),
+                            attribute_bits_of(given.colour_bits, usual.colour),
+                            attribute_bits_of(given.generic_bits, usual.generic)};
+  options.max_property_bytes = given.max_property_bytes;
   if (given.has_box != 0) {
     options.box.emplace();
     options.box->extend(given.box_low[0], given.box_low[1], given.box_low[2]);
@@ -137,6 +126,10 @@ tvg_code tvg_encoder_options_init(tvg_encoder_options* options) {
   values.max_meshes = defaults.max_meshes;
   values.mode = static_cast<std::uint32_t>(defaults.mode);
   values.effort = static_cast<std::uint32_t>(defaults.effort);
+  values.texcoord_bits = bits_in_c(defaults.attribute_bits.texcoord);
+  values.normal_bits = bits_in_c(defaults.attribute_bits.normal);
+  values.colour_bits = bits_in_c(defaults.attribute_bits.colour);
+  values.generic_bits = bits_in_c(defaults.attribute_bits.generic);
   return give(values, options);
 }
 
@@ -153,7 +146,7 @@ tvg_code tvg_encoder_create(const tvg_encoder_options* options, tvg_sink sink, v
     std::memcpy(&known, options, std::min(options->struct_size, sizeof known));
   }
   try {
-    *encoder = new tvg_encoder{options_of(known), sink_of(sink, user), {}, 0, {}, {}};
+    *encoder = new tvg_encoder{options_of(known), sink_of(sink, user), {}, 0, {}, {}, {}};
     return TVG_OK;
   } catch (const std::exception&) {
     return TVG_ERROR_OUT_OF_MEMORY;
@@ -186,11 +179,14 @@ tvg_code tvg_encoder_set_mesh(tvg_encoder* encoder, uint32_t vertex_count, const
     std::optional<tvg::Encoder> first;
     if (!encoder->encoder) first.emplace(encoder->options, encoder->sink);
     tvg::Encoder& target = first ? *first : *encoder->encoder;
-    tvg::Status status = target.set_mesh(mesh);
+    tvg::Status status = target.set_mesh(mesh, {}, encoder->properties);
     const bool refused = !status.ok() && (status.error().code == tvg::ErrorCode::kInvalidArgument ||
                                           status.error().code == tvg::ErrorCode::kInvalidInput);
     if (first && !refused) encoder->encoder = std::move(first);
-    if (status.ok()) encoder->vertex_count = vertex_count;
+    if (status.ok()) {
+      encoder->vertex_count = vertex_count;
+      encoder->properties = {};
+    }
     return status;
   });
 }

@@ -46,6 +46,9 @@ MeshInfo sizes_of(const MeshLayout& layout) {
   info.keeps_vertex_order = layout.keeps_order;
   info.levels_bytes = layout.levels.size();
   info.lods_bytes = layout.lods.size();
+  info.parts_bytes = layout.parts.size();
+  info.attributes_bytes = layout.attributes.size();
+  info.polygons_bytes = layout.polygons.size();
   if (!layout.levels.empty()) info.levels = layout.levels.front();
   return info;
 }

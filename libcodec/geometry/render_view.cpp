@@ -1,6 +1,7 @@
 #include "base/allocation.hpp"
 #include "base/errors.hpp"
 #include "base/stream_error.hpp"
+#include "geometry/property_fault.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -12,56 +13,6 @@
 namespace tvg {
 
 namespace {
-
-/// What is wrong with an attribute of this mesh, or null.
-const char* fault_of(const Attribute& attribute, const Mesh& mesh, std::size_t parts) {
-  if (attribute.components < 1 || attribute.components > kMaxAttributeComponents)
-    return "an attribute has one to four components";
-  if (!attribute.animated && attribute.values.size() % attribute.components != 0)
-    return "an attribute's values do not divide into its components";
-  const std::size_t values = attribute.value_count();
-  switch (attribute.domain) {
-    case AttributeDomain::kVertex:
-      return attribute.animated || values == mesh.vertex_count
-                 ? nullptr
-                 : "an attribute of vertices has a value for each vertex";
-    case AttributeDomain::kPart:
-      return attribute.animated || values == parts ? nullptr
-                                                   : "an attribute of parts has a value for each part";
-    case AttributeDomain::kCorner:
-      break;
-    default:
-      return "there is no such domain of attributes";
-  }
-  if (attribute.corners.size() != 3 * mesh.faces.size())
-    return "an attribute of corners says for every corner which value it has";
-  const auto within = [&](std::uint32_t value) {
-    return value < (attribute.animated ? RenderView::kNoValue : values);
-  };
-  return std::all_of(attribute.corners.begin(), attribute.corners.end(), within)
-             ? nullptr
-             : "a corner has a value that the attribute does not have";
-}
-
-/// The same of everything.
-const char* fault_of(const Mesh& mesh, const MeshProperties& properties) {
-  if (mesh.faces.size() > kMaxFaceCount) return "a mesh has at most 2^30 faces";
-  for (const Face& face : mesh.faces) {
-    for (const std::uint32_t vertex : face) {
-      if (vertex >= mesh.vertex_count) return "a face has a vertex that the mesh does not have";
-    }
-  }
-  const std::size_t parts = properties.parts.size();
-  if (properties.face_parts.size() != (parts > 0 ? mesh.faces.size() : 0))
-    return "where there are parts every face is of one";
-  for (const std::uint32_t part : properties.face_parts) {
-    if (part >= parts) return "a face is of a part that the mesh does not have";
-  }
-  for (const Attribute& attribute : properties.attributes) {
-    if (const char* const fault = fault_of(attribute, mesh, parts)) return fault;
-  }
-  return nullptr;
-}
 
 Status copy_chosen(std::span<const std::uint32_t> chosen, std::span<const float> values,
                    std::uint32_t components, std::span<std::byte> target, std::size_t stride) {
@@ -249,7 +200,7 @@ class RenderView::Builder {
 };
 
 Result<RenderView> RenderView::of(const Mesh& mesh, const MeshProperties& properties) {
-  if (const char* const fault = fault_of(mesh, properties)) return invalid_input(fault);
+  if (const char* const fault = property_fault(mesh, properties)) return invalid_input(fault);
   RenderView view;
   view.mesh_vertices_ = mesh.vertex_count;
   if (std::optional<Error> error = Builder(mesh, properties, view).build()) return *std::move(error);

@@ -5,6 +5,7 @@
 #include "modes/basis_plan.hpp"
 #include "modes/elp_header.hpp"
 #include "modes/lossless_header.hpp"
+#include "streams/surveyed_properties.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -113,6 +114,8 @@ class Surveyor {
     surveyed.faces = mesh.face_count;
     surveyed.parts = sizes_of(mesh);
     mesh_ids_.push_back(reader_.mesh_id());
+    if (Status status = survey_properties(mesh, reader_.head().limits, surveyed); !status.ok())
+      find(status.error());
     CoarseLayouts lods;
     if (mesh.lods.empty()) return;
     if (const Fault fault = read_coarse_layouts(mesh.lods, mesh.face_count, lods)) {

@@ -134,6 +134,31 @@ void EncoderScript::set_metadata(unsigned how) {
   answered(tvg_encoder_set_metadata(encoder_.get(), key.c_str(), (how & 31) == 31 ? nullptr : value.c_str()));
 }
 
+void EncoderScript::add_properties(std::uint32_t vertices, std::uint32_t faces) {
+  std::vector<float> values(256);
+  for (float& value : values) value = static_cast<float>(static_cast<std::int8_t>(byte())) / 8;
+  std::vector<std::uint32_t> numbers(3 * faces);
+  for (std::uint32_t& value : numbers) value = byte() % 8u;
+  tvg_attribute attribute = {};
+  attribute.struct_size = sizeof attribute;
+  attribute.kind = byte() % 5u;
+  attribute.domain = byte() % 4u;
+  attribute.components = byte() % 6u;
+  attribute.bits = byte() % 34u;
+  attribute.values = values.data();
+  attribute.value_count = attribute.domain == TVG_DOMAIN_VERTEX ? vertices : byte() % 9u;
+  attribute.corners = attribute.domain == TVG_DOMAIN_CORNER ? numbers.data() : nullptr;
+  attribute.corner_count = attribute.domain == TVG_DOMAIN_CORNER ? numbers.size() : 0;
+  if (const tvg_code code = tvg_encoder_add_attribute(encoder_.get(), &attribute); code != TVG_OK)
+    answered(code);
+  if ((byte() & 1u) == 0) return;
+  const tvg_part_info part = {sizeof part, "object", nullptr, "material"};
+  for (unsigned i = 0; i < 8; ++i) tvg_encoder_add_part(encoder_.get(), &part);
+  tvg_encoder_set_face_parts(encoder_.get(), numbers.data(), faces);
+  const tvg_polygon polygon = {byte() % 8u, byte() % 8u};
+  if ((byte() & 1u) != 0) tvg_encoder_set_polygons(encoder_.get(), &polygon, 1);
+}
+
 void EncoderScript::set_mesh(unsigned how) {
   const std::uint32_t vertices = byte() % kMostVertices, face_count = byte() % kMostFaces;
   std::vector<std::uint32_t> faces(3 * face_count);
@@ -143,9 +168,13 @@ void EncoderScript::set_mesh(unsigned how) {
     inside = inside && corner < vertices;
   }
   const bool null = (how & 28) == 28;
+  if ((how & 28) == 24) add_properties(vertices, face_count);
   const tvg_code code =
       tvg_encoder_set_mesh(encoder_.get(), vertices, null ? nullptr : faces.data(), face_count);
-  if (code != TVG_OK) return answered(code);
+  if (code != TVG_OK) {
+    tvg_encoder_clear_properties(encoder_.get());
+    return answered(code);
+  }
   promise(encoder_ && !lost_ && !ended_ && inside && (!null || face_count == 0),
           "no mesh is taken that makes no sense or comes out of turn");
   vertex_count_ = vertices;

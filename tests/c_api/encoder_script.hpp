@@ -36,6 +36,7 @@ class EncoderScript {
   void create(unsigned how);
   void set_metadata(unsigned how);
   void set_mesh(unsigned how);
+  void add_properties(std::uint32_t vertices, std::uint32_t faces);
   void add_frame(const std::vector<float>& frame);
   void add_frames(unsigned how);
   void add_odd_frame(unsigned how);

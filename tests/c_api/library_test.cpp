@@ -25,9 +25,13 @@ std::string output_of(const std::string& command) {
   return text;
 }
 
-TEST(SharedLibrary, ExportsTheFunctionsOfItsHeaderAndNothingElse) {
-  std::ifstream header(TVG_C_HEADER);
-  const std::string text{std::istreambuf_iterator<char>(header), {}};
+TEST(SharedLibrary, ExportsTheFunctionsOfItsHeadersAndNothingElse) {
+  std::string text;
+  for (const char* name : {"tvg.h", "tvg_encoder.h", "tvg_properties.h"}) {
+    std::ifstream header(std::string(TVG_C_HEADERS) + name);
+    ASSERT_TRUE(header) << name;
+    text.append(std::istreambuf_iterator<char>(header), {});
+  }
   const std::regex declaration("\nTVG_API [a-z][a-z0-9_ ]*[ *]+(tvg_[a-z_]+)\\(");
   std::set<std::string> declared;
   for (std::sregex_iterator i(text.begin(), text.end(), declaration), end; i != end; ++i)
@@ -66,6 +70,7 @@ TEST_F(ExampleTest, DecodeToMemoryFindsTheSameFrameAgain) {
 TEST_F(ExampleTest, WhatEncodeWaveWritesPrintFramesPrints) {
   const std::string text = output_of(TVG_EXAMPLES "/encode_wave | " TVG_EXAMPLES "/print_frames");
   EXPECT_NE(text.find("mesh: 1089 vertices, 2048 faces\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nattribute 'uv': 1089 values of 2 numbers\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\nframe 59: "), std::string::npos) << text;
 }
 

@@ -106,9 +106,62 @@ class Session {
       require(decoder_.copy_flags(flags.data(), flags.size()) == TVG_OK);
       frames_.insert_or_assign(frame->number, std::move(positions));
     }
+    if (event == TVG_EVENT_MESH) use_properties();
+    if (event == TVG_EVENT_FRAME) use_view();
+    if (event == TVG_EVENT_DATA) use_data();
     if (event == TVG_EVENT_ERROR) require(decoder_.error_code() != TVG_OK && !decoder_.error_text().empty());
     if (event == TVG_EVENT_DAMAGE) require(decoder_.damage() && std::strlen(decoder_.damage()->text) > 0);
     return event == TVG_EVENT_END || event == TVG_EVENT_ERROR;
+  }
+
+  /// Whatever the mesh has can be had, and refers to nothing that is not there.
+  void use_properties() {
+    const auto mesh = decoder_.mesh();
+    const auto properties = decoder_.properties();
+    require(mesh && properties);
+    std::vector<std::uint32_t> corners(3 * std::size_t{mesh->face_count}), parts(mesh->face_count);
+    for (std::uint32_t i = 0; i < properties->attribute_count; ++i) {
+      const auto attribute = decoder_.attribute(i);
+      require(attribute && attribute->components >= 1 && attribute->components <= 4);
+      require(decoder_.copy_corners(i, corners.data(), corners.size()) == TVG_OK);
+      for (const std::uint32_t corner : corners) require(corner < attribute->value_count);
+      if (attribute->animated != 0) continue;
+      std::vector<float> values(std::size_t{attribute->value_count} * attribute->components);
+      require(decoder_.copy_attribute(i, values.data(), values.size()) == TVG_OK);
+    }
+    require(decoder_.copy_face_parts(parts.data(), parts.size()) == TVG_OK);
+    for (const std::uint32_t part : parts) require(part < std::max(properties->part_count, 1u));
+    for (std::uint32_t i = 0; i < properties->part_count; ++i) require(decoder_.part(i).has_value());
+    std::vector<tvg_polygon> polygons(properties->polygon_count);
+    require(decoder_.copy_polygons(polygons.data(), polygons.size()) == TVG_OK);
+    for (const tvg_polygon& polygon : polygons)
+      require(polygon.corner_count >= 4 && polygon.first_face < mesh->face_count &&
+              polygon.corner_count - 2 <= mesh->face_count - polygon.first_face);
+  }
+
+  /// The view shows every corner of the mesh.
+  void use_view() {
+    const auto view = decoder_.view();
+    const auto mesh = decoder_.mesh();
+    require(view && mesh && view->index_count == 3 * mesh->face_count);
+    for (std::uint32_t i = 0; i < view->index_count; ++i) {
+      require(view->indices[i] < view->vertex_count);
+      require(view->source_vertices[view->indices[i]] ==
+              mesh->faces[3 * std::size_t{view->source_faces[i / 3]} + i % 3]);
+    }
+    std::vector<float> rows(4 * std::size_t{view->vertex_count});
+    require(decoder_.copy_view_positions(rows.data(), 3 * std::size_t{view->vertex_count}) == TVG_OK);
+    require(decoder_.compute_view_normals(rows.data(), 3 * std::size_t{view->vertex_count}) == TVG_OK);
+    for (std::uint32_t i = 0; decoder_.attribute(i); ++i)
+      require(decoder_.copy_view_attribute(i, rows.data(), rows.size()) == TVG_OK);
+  }
+
+  void use_data() {
+    const auto data = decoder_.data();
+    require(data && std::strlen(data->name) > 0 && data->packed_size <= data->size);
+    if (data->size > (1u << 16)) return;
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(data->size));
+    decoder_.copy_data(bytes.data(), bytes.size());
   }
 
   /// Everything that can be asked at any time.
@@ -123,6 +176,11 @@ class Session {
     (void)decoder_.frame();
     (void)decoder_.damage();
     (void)decoder_.metadata("fps");
+    (void)decoder_.properties();
+    (void)decoder_.data();
+    decoder_.copy_attribute(0, room.data(), room.size());
+    decoder_.copy_view_positions(room.data(), room.size());
+    decoder_.copy_view_attribute(0, room.data(), room.size());
     if (const auto mesh = decoder_.mesh()) {
       for (std::size_t i = 0; i < 3 * std::size_t{mesh->face_count}; ++i)
         require(mesh->faces[i] < mesh->vertex_count);

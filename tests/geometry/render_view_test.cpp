@@ -50,7 +50,7 @@ RenderView view_of(const Mesh& mesh, const MeshProperties& properties) {
     ADD_FAILURE() << view.error().message;
     return {};
   }
-  return *std::move(view);
+  return std::move(*view);
 }
 
 std::vector<std::uint32_t> list(std::span<const std::uint32_t> numbers) {

@@ -69,6 +69,9 @@ struct MeshInfo {
   std::uint32_t levels = 0;        ///< that the vertices have; 0 where none were transmitted
   std::vector<LodInfo> lods = {};  ///< the finest first
   std::uint32_t lod = 0;           ///< which of them mesh() is, counted from 1; 0: the whole mesh
+  std::uint64_t parts_bytes = 0;
+  std::uint64_t attributes_bytes = 0;  ///< of those that are not animated
+  std::uint64_t polygons_bytes = 0;
 };
 
 /// Decodes a stream as its bytes arrive. Bytes go in with push(), in pieces of any size; poll() then says

@@ -47,6 +47,57 @@ class StreamDecoder {
     return tvg_decoder_copy_flags(get(), flags, count);
   }
 
+  /// What the mesh has beside its connectivity (tvg_properties.h); nothing where it is not there.
+  std::optional<tvg_properties_info> properties() const {
+    return read<tvg_properties_info>(tvg_decoder_get_properties);
+  }
+  std::optional<tvg_attribute_info> attribute(std::uint32_t attribute) const {
+    return read<tvg_attribute_info>(tvg_decoder_get_attribute, attribute);
+  }
+  std::optional<tvg_part_info> part(std::uint32_t part) const {
+    return read<tvg_part_info>(tvg_decoder_get_part, part);
+  }
+  /// [value][component], into `count` floats.
+  tvg_code copy_attribute(std::uint32_t attribute, float* values, std::size_t count) const {
+    return tvg_decoder_copy_attribute(get(), attribute, values, count * sizeof(float), row_of(attribute));
+  }
+  tvg_code copy_corners(std::uint32_t attribute, std::uint32_t* corners, std::size_t count) const {
+    return tvg_decoder_copy_corners(get(), attribute, corners, count);
+  }
+  tvg_code copy_face_parts(std::uint32_t* parts, std::size_t count) const {
+    return tvg_decoder_copy_face_parts(get(), parts, count);
+  }
+  tvg_code copy_polygons(tvg_polygon* polygons, std::size_t count) const {
+    return tvg_decoder_copy_polygons(get(), polygons, count);
+  }
+
+  /// The mesh as graphics hardware draws it; the first call after a mesh makes it.
+  std::optional<tvg_view_info> view() {
+    tvg_view_info info = {};
+    info.struct_size = sizeof info;
+    if (tvg_decoder_get_view(get(), &info) != TVG_OK) return std::nullopt;
+    return info;
+  }
+  std::optional<tvg_view_range> view_range(std::uint32_t part) const {
+    return read<tvg_view_range>(tvg_decoder_get_view_range, part);
+  }
+  /// [render vertex][xyz], into `count` floats.
+  tvg_code copy_view_positions(float* positions, std::size_t count) {
+    return tvg_decoder_copy_view_positions(get(), positions, count * sizeof(float), 3 * sizeof(float));
+  }
+  tvg_code compute_view_normals(float* normals, std::size_t count) {
+    return tvg_decoder_compute_view_normals(get(), normals, count * sizeof(float), 3 * sizeof(float));
+  }
+  /// [render vertex][component], into `count` floats.
+  tvg_code copy_view_attribute(std::uint32_t attribute, float* values, std::size_t count) const {
+    return tvg_decoder_copy_view_attribute(get(), attribute, values, count * sizeof(float),
+                                           row_of(attribute));
+  }
+
+  /// Free-form data, with TVG_EVENT_DATA.
+  std::optional<tvg_data_info> data() const { return read<tvg_data_info>(tvg_decoder_get_data); }
+  tvg_code copy_data(void* bytes, std::size_t size) { return tvg_decoder_copy_data(get(), bytes, size); }
+
   tvg_code load_index(const void* bytes, std::size_t size) {
     return tvg_decoder_load_index(get(), bytes, size);
   }
@@ -73,6 +124,20 @@ class StreamDecoder {
     void operator()(tvg_decoder* handle) const { tvg_decoder_destroy(handle); }
   };
 
+  /// Bytes of a value.
+  std::size_t row_of(std::uint32_t number) const {
+    const std::optional<tvg_attribute_info> info = attribute(number);
+    return info ? info->components * sizeof(float) : 0;
+  }
+
+  template <class Info>
+  std::optional<Info> read(tvg_code (*function)(const tvg_decoder*, std::uint32_t, Info*),
+                           std::uint32_t number) const {
+    Info info = {};
+    info.struct_size = sizeof info;
+    if (function(get(), number, &info) != TVG_OK) return std::nullopt;
+    return info;
+  }
   template <class Info>
   std::optional<Info> read(tvg_code (*function)(const tvg_decoder*, Info*)) const {
     Info info = {};

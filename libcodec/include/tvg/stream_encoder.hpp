@@ -34,6 +34,25 @@ class StreamEncoder {
   tvg_code set_metadata(const char* key, const char* value) {
     return tvg_encoder_set_metadata(get(), key, value);
   }
+  /// What the mesh that comes next has beside its connectivity (tvg_properties.h).
+  tvg_code add_attribute(const tvg_attribute& attribute) {
+    return tvg_encoder_add_attribute(get(), &attribute);
+  }
+  tvg_code add_part(const char* object, const char* group, const char* material) {
+    const tvg_part_info part = {sizeof part, object, group, material};
+    return tvg_encoder_add_part(get(), &part);
+  }
+  tvg_code set_face_parts(const std::uint32_t* parts, std::size_t face_count) {
+    return tvg_encoder_set_face_parts(get(), parts, face_count);
+  }
+  tvg_code set_polygons(const tvg_polygon* polygons, std::size_t count) {
+    return tvg_encoder_set_polygons(get(), polygons, count);
+  }
+  tvg_code clear_properties() { return tvg_encoder_clear_properties(get()); }
+  /// Before the first mesh.
+  tvg_code add_data(const char* name, const void* bytes, std::size_t size) {
+    return tvg_encoder_add_data(get(), name, bytes, size);
+  }
   /// `faces`: [face][corner].
   tvg_code set_mesh(std::uint32_t vertex_count, const std::uint32_t* faces, std::uint32_t face_count) {
     return tvg_encoder_set_mesh(get(), vertex_count, faces, face_count);

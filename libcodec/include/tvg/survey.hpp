@@ -7,15 +7,36 @@
 #include <vector>
 
 #include <tvg/decoder.hpp>
+#include <tvg/properties.hpp>
 #include <tvg/types.hpp>
 
 namespace tvg {
+
+/// An attribute of a mesh, without its values.
+struct SurveyedAttribute {
+  std::string name;
+  AttributeKind kind = AttributeKind::kGeneric;
+  AttributeDomain domain = AttributeDomain::kVertex;
+  std::uint32_t components = 1;
+  int bits = Attribute::kExact;
+  bool animated = false;
+  std::uint64_t values = 0;
+};
+
+/// A part of a mesh, with the number of its faces.
+struct SurveyedPart {
+  Part part;
+  std::uint64_t faces = 0;
+};
 
 /// A mesh chunk, by its counts.
 struct SurveyedMesh {
   std::uint32_t vertices = 0;
   std::uint32_t faces = 0;
   MeshInfo parts;
+  std::vector<SurveyedAttribute> attributes = {};
+  std::vector<SurveyedPart> face_parts = {};
+  std::uint64_t polygons = 0;
 };
 
 /// Planes that GOPs in mode basis share, or a part of them.
@@ -35,7 +56,7 @@ struct SurveyedData {
   std::uint64_t bytes = 0;  ///< of the whole chunk
 };
 
-/// What a stream's structures say without being decoded.
+/// What a stream's structures say without its frames being decoded.
 struct StreamSurvey {
   StreamHead head;
   Metadata metadata;

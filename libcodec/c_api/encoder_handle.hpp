@@ -1,0 +1,46 @@
+#pragma once
+#include "c_api/support.hpp"
+
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tvg/encoder.hpp>
+
+/// What a handle stands for.
+struct tvg_encoder {
+  tvg::EncodeOptions options;
+  tvg::ByteSink sink;
+  std::optional<tvg::Encoder> encoder;  ///< once there is a mesh
+  std::uint32_t vertex_count = 0;
+  tvg::MeshProperties properties;  ///< of the mesh to come
+  std::vector<float> positions;    ///< [vertex][xyz]
+  std::string error_text;
+};
+
+namespace tvg::c_api {
+
+/// Remembers what went wrong and gives its code back.
+inline tvg_code fail(tvg_encoder& encoder, tvg_code code, const char* text) {
+  try {
+    encoder.error_text = text;
+  } catch (const std::exception&) {
+    encoder.error_text.clear();
+  }
+  return code;
+}
+
+/// Runs what may throw for want of memory.
+template <class Work>
+tvg_code guarded(tvg_encoder& encoder, Work work) {
+  try {
+    const Status status = work();
+    return status.ok() ? TVG_OK : fail(encoder, code_of(status.error()), status.error().describe().c_str());
+  } catch (const std::exception&) {
+    return fail(encoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");
+  }
+}
+
+}  // namespace tvg::c_api
