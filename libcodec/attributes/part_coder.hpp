@@ -17,7 +17,7 @@ class PartCoder {
  public:
   /// `partner` is what pair_edges() gives; there is a part at least.
   PartCoder(std::span<const std::uint32_t> partner, std::size_t part_count)
-      : partner_(partner), part_count_(std::max(static_cast<std::uint32_t>(part_count), 1u)), used_(part_count) {
+      : partner_(partner), part_count_(static_cast<std::uint32_t>(part_count)), used_(part_count) {
     use(0);
   }
 

@@ -60,7 +60,7 @@ class IndexSet {
 /// Codes a value below `bound` (at least 1), all equally likely, in truncated binary.
 template <class Coder>
 std::uint32_t code_uniform(Coder& coder, std::uint32_t value, std::uint32_t bound) {
-  const int bits = std::bit_width(bound) - 1;
+  const int bits = std::bit_width(bound | 1) - 1;
   const std::uint32_t short_codes = static_cast<std::uint32_t>((std::uint64_t{2} << bits) - bound);
   const std::uint32_t head = value < short_codes ? value : (value + short_codes) >> 1;
   const std::uint32_t decoded = code_bits(coder, head, bits);
