@@ -1,7 +1,10 @@
 #pragma once
 #include "attributes/attribute_grid.hpp"
 #include "attributes/edge_pairs.hpp"
+#include "attributes/field_coder.hpp"
+#include "attributes/normal_coder.hpp"
 #include "attributes/property_mesh.hpp"
+#include "attributes/seam_coder.hpp"
 #include "attributes/wedges.hpp"
 #include "connectivity/vertex_order_coding.hpp"
 #include "entropy/range_coder.hpp"
@@ -9,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,15 +26,8 @@ class AttributeCoder {
   /// The seams of an attribute of corners: [half-edge], not 0 for both half-edges of a seam.
   template <class Coder>
   bool code_seams(Coder& coder, std::span<std::uint8_t> seams) {
-    const std::span<const std::uint32_t> partner = partners();
-    AdaptiveBit model;
-    for (std::uint32_t h = 0; h < seams.size(); ++h) {
-      const std::uint32_t back = partner[h];
-      if (back == kNoCorner || back > h) continue;
-      seams[h] = seams[back] = coder.code(model, seams[h] != 0) ? 1 : 0;
-      if (!is_whole(coder)) return false;
-    }
-    return true;
+    if (!seam_coder_) seam_coder_.emplace(mesh_, partners());
+    return seam_coder_->code(coder, seams);
   }
 
   /// [half-edge]: as pair_edges() has it.
@@ -41,7 +38,15 @@ class AttributeCoder {
 
   /// The integers of `count` values, [value][integer]. False where the stream is malformed.
   template <class Coder>
-  bool code_values(Coder& coder, const AttributeGrid& grid, std::span<std::int32_t> values) {
+  bool code_values(Coder& coder, const AttributeGrid& grid, std::span<const std::uint32_t> of_corner, std::span<std::int32_t> values) {
+    if (grid.octahedral()) {
+      const WedgeFans fans(of_corner, values.size() / grid.integers());
+      return NormalCoder(mesh_, fans, grid).code(coder, values);
+    }
+    if (grid.stepped()) {
+      const WedgeFans fans(of_corner, values.size() / grid.integers());
+      return FieldCoder(mesh_, fans, partners(), grid).code(coder, values);
+    }
     const std::size_t width = grid.integers();
     std::array<LengthModel, kMaxAttributeComponents> sizes;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -64,6 +69,7 @@ class AttributeCoder {
 
   const PropertyMesh& mesh_;
   std::vector<std::uint32_t> partners_;
+  std::optional<SeamCoder> seam_coder_;
 };
 
 }  // namespace tvg

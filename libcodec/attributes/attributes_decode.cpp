@@ -82,18 +82,21 @@ class Reading {
 
   Fault take(const AttributeGrid& grid, Attribute& attribute) {
     std::size_t count = part_count_;
+    std::vector<std::uint32_t> of_corner;
+    if (attribute.domain == AttributeDomain::kVertex) of_corner = corners_of_vertices(mesh_.faces);
     if (attribute.domain == AttributeDomain::kVertex) count = mesh_.vertex_count();
     if (attribute.domain == AttributeDomain::kCorner) {
       std::vector<std::uint8_t> seams(3 * mesh_.faces.size());
       if (!coder_.code_seams(decoder_, seams)) return damaged();
       Wedges wedges = wedges_between(coder_.partners(), seams);
       count = wedges.count();
-      attribute.corners = std::move(wedges.of_corner);
+      of_corner = std::move(wedges.of_corner);
     }
     const std::size_t width = grid.integers(), components = grid.components;
     if (!can_allocate(4 * (width + components) * count)) return kNoMemory;
     std::vector<std::int32_t> integers(width * count);
-    if (!coder_.code_values(decoder_, grid, integers) || !are_valid(integers, grid)) return damaged();
+    if (!coder_.code_values(decoder_, grid, of_corner, integers) || !are_valid(integers, grid)) return damaged();
+    if (attribute.domain == AttributeDomain::kCorner) attribute.corners = std::move(of_corner);
     attribute.values.resize(components * count);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t place = attribute.domain == AttributeDomain::kVertex ? mesh_.order[i] : i;

@@ -68,7 +68,7 @@ void code_corners(RangeEncoder& encoder, AttributeCoder& coder, const Written& w
   const Wedges wedges = wedges_between(partner, seams);
   std::vector<std::int32_t> values = picked(written.integers, width, wedges.count(),
                                             [&](std::size_t i) { return corners[wedges.first[i]]; });
-  coder.code_values(encoder, written.grid, values);
+  coder.code_values(encoder, written.grid, wedges.of_corner, values);
 }
 
 }  // namespace
@@ -97,7 +97,8 @@ std::vector<std::uint8_t> encode_attributes(std::span<const Attribute> attribute
       written.integers = picked(written.integers, written.grid.integers(), mesh.vertex_count(),
                                 [&](std::size_t t) { return mesh.order[t]; });
     }
-    coder.code_values(encoder, written.grid, written.integers);
+    const std::vector<std::uint32_t> of_corner = attribute.domain == AttributeDomain::kVertex ? corners_of_vertices(mesh.faces) : std::vector<std::uint32_t>();
+    coder.code_values(encoder, written.grid, of_corner, written.integers);
   }
   writer.bytes(encoder.finish());
   return writer.take();
