@@ -16,7 +16,8 @@ class WedgeFans {
   WedgeFans(std::span<const std::uint32_t> of_corner, std::size_t count)
       : of_corner_(of_corner), begin_(count + 1), corners_(of_corner.size()) {
     for (const std::uint32_t w : of_corner) ++begin_[w];
-    for (std::size_t w = 0, sum = 0; w <= count; ++w) sum += std::exchange(begin_[w], static_cast<std::uint32_t>(sum));
+    for (std::size_t w = 0, sum = 0; w <= count; ++w)
+      sum += std::exchange(begin_[w], static_cast<std::uint32_t>(sum));
     for (std::uint32_t c = 0; c < of_corner.size(); ++c) corners_[begin_[of_corner[c]]++] = c;
     for (std::size_t w = count; w > 0; --w) begin_[w] = begin_[w - 1];
     begin_[0] = 0;
