@@ -19,12 +19,12 @@ class AttributeCoder {
       : mesh_(mesh), partner_(pair_edges(mesh.faces, mesh.vertex_count())), seams_(mesh, partner_) {}
 
   /// What it takes beside what it is given, for one attribute after the other, in bytes.
-  static std::size_t bytes(const PropertyMesh& mesh, std::size_t part_count) {
-    constexpr std::size_t kPerValue =
+  static std::uint64_t bytes(const PropertyMesh& mesh, std::size_t part_count) {
+    constexpr std::uint64_t kPerValue =
         std::max(FieldCoder::kBytesPerValue, NormalCoder::kBytesPerValue) + 4 + 4 * kMaxAttributeComponents;
-    const std::size_t faces = mesh.faces.size(), vertices = mesh.vertex_count();
-    const std::size_t values = std::max({3 * faces, vertices, part_count});
-    return pair_edges_bytes(faces, vertices) + kPerValue * values + 36 * faces + 5 * vertices;
+    const std::uint64_t faces = mesh.faces.size(), vertices = mesh.vertex_count();
+    const std::uint64_t values = std::max({3 * faces, vertices, std::uint64_t{part_count}});
+    return kPerValue * values + 72 * faces + 24 * vertices + 64;
   }
 
   /// [half-edge]: as pair_edges() has it.

@@ -116,7 +116,9 @@ Fault read_all(ByteReader reader, const PropertyMesh& mesh, std::size_t part_cou
                                      head.components, head.name.size())))
       return kTooLarge;
   }
-  if (!can_allocate(AttributeCoder::bytes(mesh, part_count) + kSmallThings)) return kNoMemory;
+  const std::uint64_t working = AttributeCoder::bytes(mesh, part_count) + kSmallThings;
+  if (working > static_cast<std::size_t>(-1) / 2 || !can_allocate(static_cast<std::size_t>(working)))
+    return kNoMemory;
   Reading reading(reader.bytes(reader.left()), mesh, part_count);
   for (std::size_t i = 0; i < count; ++i) {
     if (const Fault fault = reading.take(grids[i], attributes[i])) return fault;
