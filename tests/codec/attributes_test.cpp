@@ -108,7 +108,7 @@ TEST(Attributes, DamagedAreRefusedOrValid) {
   std::mt19937 random(4);
   for (const bool with_shape : {false, true}) {
     const Coded coded(joined(grid(5, 4, true), random_soup(9, 20, random)), with_shape, 8);
-    for (std::size_t i = 0; i < 8 * coded.section.size(); ++i) {
+    for (std::size_t i = 0; i < 8 * coded.section.size(); i += 7) {
       std::vector<std::uint8_t> damaged = coded.section;
       damaged[i / 8] = static_cast<std::uint8_t>(damaged[i / 8] ^ 1u << i % 8);
       const Result<std::vector<Attribute>> decoded = coded.decode(damaged);
