@@ -25,12 +25,6 @@ void unfold(std::int32_t s, std::int32_t t, std::int32_t centre, std::span<float
   normal[2] = static_cast<float>(z / length);
 }
 
-/// The nearest finite binary32 number.
-float finite_float(double x) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(x, -kLargest, kLargest));
-}
-
 }  // namespace
 
 // format-spec §5.7.1
@@ -57,6 +51,16 @@ std::int32_t ordered_integer(float number) {
 float ordered_number(std::int32_t integer) {
   const auto bits = static_cast<std::uint32_t>(integer);
   return bits_as<float>(integer >= 0 ? bits : 0x7FFFFFFFu - bits);
+}
+
+bool is_finite_number(std::int32_t integer) {
+  constexpr std::int32_t kMost = 0x7F7FFFFF;
+  return integer <= kMost && integer >= -1 - kMost;
+}
+
+float finite_float(double number) {
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(number, -kLargest, kLargest));
 }
 
 }  // namespace tvg

@@ -34,6 +34,10 @@ struct AttributeGrid {
 /// A binary32 number as an integer in the order of the numbers, and back (format-spec §7.9.1).
 std::int32_t ordered_integer(float number);
 float ordered_number(std::int32_t integer);
+/// Whether an integer is that of a number that is finite.
+bool is_finite_number(std::int32_t integer);
+/// The finite binary32 number that is nearest.
+float finite_float(double number);
 
 /// Normals have two bits at least.
 inline constexpr int kMinNormalBits = 2;

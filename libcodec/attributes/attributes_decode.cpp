@@ -59,21 +59,6 @@ Fault read_head(ByteReader& reader, Attribute& attribute, AttributeGrid& grid) {
   return {};
 }
 
-/// Whether integers that were read are those of a grid.
-bool are_valid(std::span<const std::int32_t> integers, const AttributeGrid& grid) {
-  if (grid.bits == Attribute::kExact) {
-    const std::int32_t most = ordered_integer(std::numeric_limits<float>::max());
-    return std::all_of(integers.begin(), integers.end(),
-                       [&](std::int32_t n) { return n <= most && n >= -1 - most; });
-  }
-  const std::int32_t most = grid.octahedral() ? grid.none() : grid.largest();
-  for (std::size_t i = 0; i < integers.size(); ++i) {
-    if (integers[i] < 0 || integers[i] > most) return false;
-    if (grid.octahedral() && i % 2 == 1 && (integers[i] == most) != (integers[i - 1] == most)) return false;
-  }
-  return true;
-}
-
 /// Reads the stream behind the heads.
 class Reading {
  public:
@@ -82,18 +67,21 @@ class Reading {
 
   Fault take(const AttributeGrid& grid, Attribute& attribute) {
     std::size_t count = part_count_;
+    std::vector<std::uint32_t> of_corner;
+    if (attribute.domain == AttributeDomain::kVertex) of_corner = corners_of_vertices(mesh_.faces);
     if (attribute.domain == AttributeDomain::kVertex) count = mesh_.vertex_count();
     if (attribute.domain == AttributeDomain::kCorner) {
       std::vector<std::uint8_t> seams(3 * mesh_.faces.size());
       if (!coder_.code_seams(decoder_, seams)) return damaged();
-      Wedges wedges = wedges_between(coder_.partners(), seams);
+      Wedges wedges = wedges_between(coder_.partner(), seams);
       count = wedges.count();
-      attribute.corners = std::move(wedges.of_corner);
+      of_corner = std::move(wedges.of_corner);
     }
     const std::size_t width = grid.integers(), components = grid.components;
     if (!can_allocate(4 * (width + components) * count)) return kNoMemory;
     std::vector<std::int32_t> integers(width * count);
-    if (!coder_.code_values(decoder_, grid, integers) || !are_valid(integers, grid)) return damaged();
+    if (!coder_.code_values(decoder_, grid, of_corner, integers)) return damaged();
+    if (attribute.domain == AttributeDomain::kCorner) attribute.corners = std::move(of_corner);
     attribute.values.resize(components * count);
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t place = attribute.domain == AttributeDomain::kVertex ? mesh_.order[i] : i;
@@ -114,11 +102,6 @@ class Reading {
   AttributeCoder coder_;
 };
 
-/// What beside the result is in memory at once.
-std::size_t working_bytes(const PropertyMesh& mesh) {
-  return pair_edges_bytes(mesh.faces.size(), mesh.vertex_count()) + 64 * mesh.faces.size();
-}
-
 Fault read_all(ByteReader reader, const PropertyMesh& mesh, std::size_t part_count, PropertyBudget& budget,
                std::vector<Attribute>& attributes) {
   const std::uint64_t count = reader.varint();
@@ -133,7 +116,9 @@ Fault read_all(ByteReader reader, const PropertyMesh& mesh, std::size_t part_cou
                                      head.components, head.name.size())))
       return kTooLarge;
   }
-  if (!can_allocate(working_bytes(mesh) + kSmallThings)) return kNoMemory;
+  const std::uint64_t working = AttributeCoder::bytes(mesh, part_count) + kSmallThings;
+  if (working > static_cast<std::size_t>(-1) / 2 || !can_allocate(static_cast<std::size_t>(working)))
+    return kNoMemory;
   Reading reading(reader.bytes(reader.left()), mesh, part_count);
   for (std::size_t i = 0; i < count; ++i) {
     if (const Fault fault = reading.take(grids[i], attributes[i])) return fault;

@@ -58,7 +58,7 @@ void code_corners(RangeEncoder& encoder, AttributeCoder& coder, const Written& w
     return std::equal(&written.integers[width * corners[a]], &written.integers[width * corners[a]] + width,
                       &written.integers[width * corners[b]]);
   };
-  const std::span<const std::uint32_t> partner = coder.partners();
+  const std::span<const std::uint32_t> partner = coder.partner();
   std::vector<std::uint8_t> seams(corners.size());
   for (std::uint32_t h = 0; h < seams.size(); ++h) {
     const std::uint32_t back = partner[h];
@@ -68,7 +68,7 @@ void code_corners(RangeEncoder& encoder, AttributeCoder& coder, const Written& w
   const Wedges wedges = wedges_between(partner, seams);
   std::vector<std::int32_t> values = picked(written.integers, width, wedges.count(),
                                             [&](std::size_t i) { return corners[wedges.first[i]]; });
-  coder.code_values(encoder, written.grid, values);
+  coder.code_values(encoder, written.grid, wedges.of_corner, values);
 }
 
 }  // namespace
@@ -97,7 +97,10 @@ std::vector<std::uint8_t> encode_attributes(std::span<const Attribute> attribute
       written.integers = picked(written.integers, written.grid.integers(), mesh.vertex_count(),
                                 [&](std::size_t t) { return mesh.order[t]; });
     }
-    coder.code_values(encoder, written.grid, written.integers);
+    const std::vector<std::uint32_t> of_corner = attribute.domain == AttributeDomain::kVertex
+                                                     ? corners_of_vertices(mesh.faces)
+                                                     : std::vector<std::uint32_t>();
+    coder.code_values(encoder, written.grid, of_corner, written.integers);
   }
   writer.bytes(encoder.finish());
   return writer.take();

@@ -58,19 +58,11 @@ Wedges wedges_between(std::span<const std::uint32_t> partner, std::span<const st
   return wedges;
 }
 
-Wedges wedges_of_vertices(std::span<const Face> faces, std::size_t vertex_count) {
-  std::vector<std::uint32_t> number(vertex_count, kNoCorner);
-  Wedges wedges;
-  wedges.of_corner.resize(3 * faces.size());
-  for (std::uint32_t c = 0; c < wedges.of_corner.size(); ++c) {
-    std::uint32_t& wedge = number[faces[c / 3][c % 3]];
-    if (wedge == kNoCorner) {
-      wedge = static_cast<std::uint32_t>(wedges.first.size());
-      wedges.first.push_back(c);
-    }
-    wedges.of_corner[c] = wedge;
-  }
-  return wedges;
+std::vector<std::uint32_t> corners_of_vertices(std::span<const Face> faces) {
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(3 * faces.size());
+  for (const Face& face : faces) vertices.insert(vertices.end(), face.begin(), face.end());
+  return vertices;
 }
 
 }  // namespace tvg

@@ -20,7 +20,7 @@ struct Wedges {
 /// (format-spec §5.7.2).
 Wedges wedges_between(std::span<const std::uint32_t> partner, std::span<const std::uint8_t> seams);
 
-/// The same where a vertex is one wedge, whatever lies around it: of vertices that have a corner.
-Wedges wedges_of_vertices(std::span<const Face> faces, std::size_t vertex_count);
+/// [3 * face + corner]: its vertex.
+std::vector<std::uint32_t> corners_of_vertices(std::span<const Face> faces);
 
 }  // namespace tvg

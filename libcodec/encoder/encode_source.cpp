@@ -40,9 +40,19 @@ void suit_captured(EncodeOptions& options) {
   options.predictor = Predictor::kElp;
 }
 
+/// What lies on the surface of a single frame is predicted from its shape, which is then of more use than the
+/// parallelograms of positions.
+void suit_static(const FrameSource& source, EncodeOptions& options) {
+  const bool has_attributes = !source.properties().attributes.empty();
+  if (source.frame_count() == 1 && has_attributes && options.mode == Mode::kElp &&
+      options.predictor == Predictor::kElp)
+    options.predictor = Predictor::kPyramid;
+}
+
 Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
                               const EncodeProgress& progress) {
   bool captured = false;
+  suit_static(source, options);
   if (needs_box(options) || source.mesh_may_change()) {
     const Result<std::optional<SourceFacts>> facts = look_through(source);
     if (!facts) return facts.error();

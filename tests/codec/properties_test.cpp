@@ -184,5 +184,30 @@ TEST(Properties, TheHeadBoundsWhatTheyTake) {
   EXPECT_EQ(decode_properties_of(stream, limits).error.code, ErrorCode::kLimitExceeded);
 }
 
+TEST(Properties, AttributesOfASingleFrameArePredictedFromItsShape) {
+  std::mt19937 random(7);
+  const Mesh mesh = grid(9, 9);
+  MeshProperties properties;
+  properties.attributes = {
+      random_corners(attribute_of("", Kind::kTexcoord, Domain::kCorner, 2, 12), mesh, 0, random)};
+  const auto shape_bytes = [&](std::size_t frames, const MeshProperties& beside) {
+    Decoder decoder;
+    decoder.push(encode_with(random_sequence(mesh, frames, random), beside));
+    while (decoder.poll() != Decoder::Event::kFrame) {
+    }
+    return decoder.mesh_info().shape_bytes;
+  };
+  EXPECT_GT(shape_bytes(1, properties), 0u);
+  EXPECT_EQ(shape_bytes(2, properties), 0u);
+  EXPECT_EQ(shape_bytes(1, {}), 0u);
+}
+
+TEST(Properties, TheSameInputGivesTheSameBytes) {
+  std::mt19937 random(8);
+  const Sequence sequence = random_sequence(closed_surface(12, 7), 1, random);
+  const MeshProperties properties = properties_of_all_sorts(sequence.mesh, random);
+  EXPECT_EQ(encode_with(sequence, properties), encode_with(sequence, properties));
+}
+
 }  // namespace
 }  // namespace tvg::test

@@ -98,7 +98,7 @@ TEST(Head, BoundsAscendAndUnknownOnesAreSkippedOrRefusedByTheirKey) {
   const std::uint64_t memory = 1 << 22;
   EXPECT_TRUE(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64}));
   EXPECT_TRUE(read_bounds({0, 7, 1, 8, 3, 8, 4, 4, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64, 1000, 1}));
-  expect_refused(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64, 21, 1}),
+  expect_refused(read_bounds({1, 8, 3, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64, 23, 1}),
                  ErrorCode::kUnsupportedVersion, "§4.1");
   expect_refused(read_bounds({3, 8, 1, 8, 5, 2, 7, 99, 9, memory, 11, 1, 13, 64}), ErrorCode::kMalformed,
                  "§3.5");
@@ -121,6 +121,20 @@ TEST(Head, HasBoundsOfPlanesOnlyWhereThereAreAny) {
   --limits.decoder_memory;
   expect_refused(read_head(write_head(limits)), ErrorCode::kMalformed, "§4.1");
   EXPECT_EQ(read_head(without)->limits, some_limits()) << "one chunk of no bytes and no components";
+}
+
+TEST(Head, HasABoundOfPropertiesOnlyWhereThereAreAny) {
+  StreamLimits limits = some_limits();
+  limits.property_bytes = 1000;
+  limits.decoder_memory = decoder_memory_needed(limits);
+  const Buffer written = write_head(limits);
+  EXPECT_GT(written.size(), write_head(some_limits()).size());
+  const Result<StreamHead> back = read_head(written);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->limits, limits);
+  EXPECT_EQ(larger_limits(some_limits(), limits).property_bytes, 1000u);
+  --limits.decoder_memory;
+  expect_refused(read_head(write_head(limits)), ErrorCode::kMalformed, "§4.1");
 }
 
 TEST(Head, BoundsOfPlanesOutOfRangeAreRefused) {
@@ -246,7 +260,7 @@ TEST(MeshChunk, CountsAndSectionsOutOfRangeAreRefused) {
   };
   const Section connectivity{1, {1, 2, 3}};
   EXPECT_TRUE(read(5, 5, {connectivity}).ok());
-  EXPECT_TRUE(read(5, 5, {{0, {}}, connectivity, {2, {9}}, {3, {0}}, {4, {}}}).ok())
+  EXPECT_TRUE(read(5, 5, {{0, {}}, connectivity, {3, {0}}, {8, {9}}, {10, {}}}).ok())
       << "even ones are skipped";
   refused(read(0, 5, {connectivity}), ErrorCode::kMalformed, "§4.3");
   refused(read(0x80000000, 5, {connectivity}), ErrorCode::kMalformed, "§4.3");
@@ -254,6 +268,9 @@ TEST(MeshChunk, CountsAndSectionsOutOfRangeAreRefused) {
   refused(read(5, 0x80000000, {connectivity}), ErrorCode::kMalformed, "§4.3");
   refused(read(5, 5, {{3, {0}}}), ErrorCode::kMalformed, "§4.3");
   refused(read(5, 5, {connectivity, connectivity}), ErrorCode::kMalformed, "§3.5");
+  refused(read(5, 5, {connectivity, {2, {}}}), ErrorCode::kMalformed, "§5.8");
+  refused(read(5, 5, {connectivity, {4, {}}}), ErrorCode::kMalformed, "§5.7");
+  refused(read(5, 5, {connectivity, {6, {}}}), ErrorCode::kMalformed, "§5.9");
   refused(read(5, 5, {connectivity, {5, {}}}), ErrorCode::kMalformed, "§5.3");
   refused(read(5, 5, {connectivity, {7, {}}}), ErrorCode::kMalformed, "§5.5");
   refused(read(5, 5, {connectivity, {7, {1}}, {9, {}}}), ErrorCode::kMalformed, "§5.6");

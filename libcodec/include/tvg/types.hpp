@@ -186,7 +186,7 @@ constexpr std::uint64_t decoder_memory_needed(const StreamLimits& limits) {
   const std::uint64_t properties =
       limits.property_bytes == 0
           ? 0
-          : limits.meshes * std::uint64_t{limits.property_bytes} + 192 * vertices + 512 * faces;
+          : (limits.meshes + std::uint64_t{1}) * limits.property_bytes + 192 * vertices + 512 * faces;
   return (std::uint64_t{1} << 20) + 160 * vertices + 96 * faces + 4 * std::uint64_t{limits.packet_bytes} +
          limits.mesh_bytes + further_meshes * (512 + 24 * vertices + 16 * faces) + properties;
 }
