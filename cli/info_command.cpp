@@ -38,8 +38,8 @@ struct DecodedFacts {
   std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
 };
 
-constexpr std::array<const char*, kPredictorCount> kPredictorNames = {"space", "time", "elp", "pyramid",
-                                                                      "rows"};
+constexpr std::array<const char*, kPredictorCount> kPredictorNames = {"space",   "time", "elp",
+                                                                      "pyramid", "rows", "shape"};
 
 const char* name_of(Mode mode) {
   return mode == Mode::kLossless ? "lossless" : mode == Mode::kBasis ? "basis" : "elp";
@@ -213,6 +213,7 @@ void print_json(const StreamSummary& summary) {
   json["vertices"] = summary.last_mesh().vertices;
   json["faces"] = summary.last_mesh().faces;
   json["meshes"] = stream.meshes.size();
+  json["stretches"] = json_of_stretches(stream);
   json["keeps_vertex_order"] = summary.last_mesh().parts.keeps_vertex_order;
   json["levels"] = summary.last_mesh().parts.levels;
   for (const LodInfo& lod : summary.last_mesh().parts.lods) {
@@ -292,6 +293,58 @@ void print_planes(const StreamSummary& summary) {
                plan.bytes, parts ? fmt::format("{:>7}", plan.part) : "");
 }
 
+/// Frames of one mesh, one after the other.
+struct ShownStretch {
+  std::uint32_t mesh = 0;  ///< number in the survey
+  std::uint64_t first_frame = 0;
+  std::uint64_t frames = 0;
+};
+
+std::vector<ShownStretch> stretches_of(const StreamSurvey& stream) {
+  std::vector<ShownStretch> stretches;
+  std::uint64_t frame = 0;
+  for (std::size_t i = 0; i < stream.gops.size(); ++i) {
+    if (stretches.empty() || stretches.back().mesh != stream.gop_meshes[i])
+      stretches.push_back({stream.gop_meshes[i], frame, 0});
+    stretches.back().frames += stream.gops[i].frame_count;
+    frame += stream.gops[i].frame_count;
+  }
+  return stretches;
+}
+
+std::uint64_t bytes_of(const MeshInfo& mesh) {
+  return mesh.connectivity_bytes + mesh.order_bytes + mesh.shape_bytes + mesh.levels_bytes + mesh.lods_bytes;
+}
+
+void print_stretches(const StreamSurvey& stream) {
+  if (stream.meshes.size() < 2) return;
+  fmt::print("\nstretches of one mesh\n  {:>8} {:>7} {:>6} {:>10} {:>10} {:>12}\n", "first", "frames", "mesh",
+             "vertices", "faces", "bytes");
+  std::vector<bool> told(stream.meshes.size(), false);
+  for (const ShownStretch& stretch : stretches_of(stream)) {
+    const SurveyedMesh& mesh = stream.meshes[stretch.mesh];
+    const bool again = told[stretch.mesh];
+    told[stretch.mesh] = true;
+    fmt::print("  {:>8} {:>7} {:>6} {:>10} {:>10} {:>12}\n", stretch.first_frame, stretch.frames,
+               stretch.mesh, mesh.vertices, mesh.faces,
+               again ? "again" : fmt::format("{}", bytes_of(mesh.parts)));
+  }
+}
+
+nlohmann::json json_of_stretches(const StreamSurvey& stream) {
+  nlohmann::json json = nlohmann::json::array();
+  for (const ShownStretch& stretch : stretches_of(stream)) {
+    const SurveyedMesh& mesh = stream.meshes[stretch.mesh];
+    json.push_back({{"first_frame", stretch.first_frame},
+                    {"frame_count", stretch.frames},
+                    {"mesh", stretch.mesh},
+                    {"vertices", mesh.vertices},
+                    {"faces", mesh.faces},
+                    {"mesh_bytes", bytes_of(mesh.parts)}});
+  }
+  return json;
+}
+
 /// Coarser meshes that can be drawn instead.
 void print_lods(const MeshInfo& mesh) {
   if (mesh.levels == 0) return;
@@ -322,7 +375,7 @@ void print_text(const StreamSummary& summary) {
              stream.gops.size(), mesh.vertices, mesh.faces,
              mesh.parts.keeps_vertex_order ? "kept" : "given up");
   if (stream.meshes.size() > 1)
-    fmt::print("  {} meshes; the counts are those of the last\n", stream.meshes.size());
+    fmt::print("  {} meshes, listed below; the counts are those of the last\n", stream.meshes.size());
   fmt::print("  decoding needs at most {} of memory\n", readable_bytes(stream.head.limits.decoder_memory));
   for (const auto& [key, value] : stream.metadata) fmt::print("  {}: {}\n", key, value);
   if (summary.decoded) {
@@ -341,6 +394,7 @@ void print_text(const StreamSummary& summary) {
   print_data(stream);
   print_lods(mesh.parts);
   print_planes(summary);
+  print_stretches(stream);
   print_gops(summary);
   fmt::print("\nchunks\n");
   for (const ChunkInfo& chunk : stream.chunks) {

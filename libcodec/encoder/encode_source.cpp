@@ -31,13 +31,14 @@ void take_facts(const SourceFacts& facts, const Mesh& first, EncodeOptions& opti
     --options.max_meshes;
 }
 
-/// How frames are coded that have nothing to do with each other: a reference shape, or planes, would be
-/// for one frame.
+/// How frames are coded that have nothing to do with each other: each as the reference shape of its mesh,
+/// where it has one resolution. Planes would be for one frame.
 void suit_captured(EncodeOptions& options) {
   options.keep_vertex_order = false;
   if (options.mode == Mode::kLossless) return;
   options.mode = Mode::kElp;
-  options.predictor = Predictor::kElp;
+  const bool one_resolution = options.fine_bits == options.coarse_bits;
+  options.predictor = one_resolution ? Predictor::kShape : Predictor::kElp;
 }
 
 Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
