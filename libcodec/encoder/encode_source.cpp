@@ -33,12 +33,13 @@ void take_facts(const SourceFacts& facts, const Mesh& first, EncodeOptions& opti
 
 /// How frames are coded that have nothing to do with each other: each as the reference shape of its mesh,
 /// where it has one resolution. Planes would be for one frame.
-void suit_captured(EncodeOptions& options) {
+void suit_captured(const SourceFacts& facts, EncodeOptions& options) {
+  constexpr std::uint32_t kFewVertices = 256;  // that do not make up for what a shape has in front
   options.keep_vertex_order = false;
   if (options.mode == Mode::kLossless) return;
   options.mode = Mode::kElp;
   const bool one_resolution = options.fine_bits == options.coarse_bits;
-  options.predictor = one_resolution ? Predictor::kShape : Predictor::kElp;
+  options.predictor = one_resolution && facts.vertices >= kFewVertices ? Predictor::kShape : Predictor::kElp;
 }
 
 Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const ByteSink& sink,
@@ -48,7 +49,7 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
     const Result<std::optional<SourceFacts>> facts = look_through(source);
     if (!facts) return facts.error();
     captured = *facts && (*facts)->captured() && options.suit_captured;
-    if (captured) suit_captured(options);
+    if (captured) suit_captured(**facts, options);
     if (*facts) take_facts(**facts, source.mesh(), options);
   }
   if (options.max_error) {

@@ -131,6 +131,19 @@ TEST(ChangingMeshes, OfCapturedVolumesAreCodedByThemselves) {
     EXPECT_EQ(decoded(made.stream), (std::vector<std::size_t>{9, 16, 25, 36, 49}));
     if (mode != Mode::kLossless) EXPECT_LT(made.stream.size(), in_order);
   }
+  options.mode = Mode::kElp;
+  const Encoded larger = encode_grids(Grids({20, 21, 22}), options);
+  Decoder decoder;
+  decoder.push(larger.stream);
+  decoder.finish();
+  int frames = 0;
+  for (Decoder::Event event = decoder.poll(); event != Decoder::Event::kEnd; event = decoder.poll()) {
+    ASSERT_NE(event, Decoder::Event::kError);
+    if (event != Decoder::Event::kFrame) continue;
+    EXPECT_EQ(decoder.frame_predictor(), Predictor::kShape);
+    ++frames;
+  }
+  EXPECT_EQ(frames, 3);
   EXPECT_FALSE(encode_grids(Grids({3, 4, 3, 4}), options).report->captured);
   EXPECT_FALSE(encode_grids(Grids({3, 3, 3}), options).report->captured);
 }
