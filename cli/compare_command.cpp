@@ -183,8 +183,9 @@ void print_text(const std::vector<Stretch>& stretches) {
     print_property_report(stretch.properties);
   }
   const ComparisonReport all = together(stretches);
-  fmt::print("all {} frames of {} meshes: maximum, coordinate {:.6g}; RMS, coordinate {:.6g}\n", all.frames,
-             stretches.size(), all.max_coordinate_error, all.rms_coordinate_error);
+  fmt::print(
+      "all {} frames in {} stretches of one mesh: maximum, coordinate {:.6g}; RMS, coordinate {:.6g}\n",
+      all.frames, stretches.size(), all.max_coordinate_error, all.rms_coordinate_error);
 }
 
 /// So that what was read to no end can be compared in another way.

@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/properties_info.hpp"
 #include "cli/scene_info.hpp"
+#include "cli/stream_stretches.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/tool_error.hpp"
@@ -38,8 +39,8 @@ struct DecodedFacts {
   std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
 };
 
-constexpr std::array<const char*, kPredictorCount> kPredictorNames = {"space", "time", "elp", "pyramid",
-                                                                      "rows"};
+constexpr std::array<const char*, kPredictorCount> kPredictorNames = {"space",   "time", "elp",
+                                                                      "pyramid", "rows", "shape"};
 
 const char* name_of(Mode mode) {
   return mode == Mode::kLossless ? "lossless" : mode == Mode::kBasis ? "basis" : "elp";
@@ -213,6 +214,7 @@ void print_json(const StreamSummary& summary) {
   json["vertices"] = summary.last_mesh().vertices;
   json["faces"] = summary.last_mesh().faces;
   json["meshes"] = stream.meshes.size();
+  json["stretches"] = json_of_stretches(stream);
   json["keeps_vertex_order"] = summary.last_mesh().parts.keeps_vertex_order;
   json["levels"] = summary.last_mesh().parts.levels;
   for (const LodInfo& lod : summary.last_mesh().parts.lods) {
@@ -322,7 +324,7 @@ void print_text(const StreamSummary& summary) {
              stream.gops.size(), mesh.vertices, mesh.faces,
              mesh.parts.keeps_vertex_order ? "kept" : "given up");
   if (stream.meshes.size() > 1)
-    fmt::print("  {} meshes; the counts are those of the last\n", stream.meshes.size());
+    fmt::print("  {} meshes, listed below; the counts are those of the last\n", stream.meshes.size());
   fmt::print("  decoding needs at most {} of memory\n", readable_bytes(stream.head.limits.decoder_memory));
   for (const auto& [key, value] : stream.metadata) fmt::print("  {}: {}\n", key, value);
   if (summary.decoded) {
@@ -341,6 +343,7 @@ void print_text(const StreamSummary& summary) {
   print_data(stream);
   print_lods(mesh.parts);
   print_planes(summary);
+  print_stretches(stream);
   print_gops(summary);
   fmt::print("\nchunks\n");
   for (const ChunkInfo& chunk : stream.chunks) {

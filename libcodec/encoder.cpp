@@ -252,9 +252,15 @@ class Encoder::State {
     EncodedMesh connectivity = encode_mesh(stretch_->mesh, options_->keep_vertex_order,
                                            frames_before_ == 0 ? options_->levels.get() : nullptr);
     if (needs_shape(*options_)) {
+      const bool is_frame = options_->predictor == Predictor::kShape;
+      BoundingBox box;
+      box.extend(first_frame);
+      const Result<Lattice> lattice = is_frame ? lattice_for(options_->box.value_or(box)) : Lattice();
+      if (!lattice) return lattice.error();
       Result<EncodedGopMesh> encoded =
           finish_mesh(std::move(connectivity), first_frame, shape_cell(*options_, first_frame),
-                      effort_of(options_->effort).neighbours, stretch_->properties);
+                      is_frame ? kMinPyramidNeighbours : effort_of(options_->effort).neighbours,
+                      stretch_->properties, is_frame ? &*lattice : nullptr);
       if (!encoded) return encoded.error();
       stretch_->encoded = std::move(*encoded);
     } else {

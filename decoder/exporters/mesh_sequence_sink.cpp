@@ -77,9 +77,11 @@ void MeshSequenceSink::add_data(const NamedData& data) {
 void MeshSequenceSink::begin_mesh(const Mesh& mesh, const MeshProperties& properties,
                                   const Metadata& metadata, std::optional<std::uint64_t> frame_count) {
   if (frame_count.value_or(1) > 1) plain_name_.clear();
-  mesh_ = mesh;
-  properties_ = properties;
-  losses_.add(held_by(format_), mesh, properties);
+  // One vertex and no faces stand for a frame that shows nothing.
+  shows_nothing_ = mesh.vertex_count == 1 && mesh.faces.empty();
+  mesh_ = shows_nothing_ ? Mesh() : mesh;
+  properties_ = shows_nothing_ ? MeshProperties() : properties;
+  losses_.add(held_by(format_), mesh_, properties_);
   const auto name = metadata.find("name");
   object_name_ = name == metadata.end() ? "" : name->second;
   origin_ = origin_of(metadata).value_or(Origin{});
@@ -92,8 +94,8 @@ void MeshSequenceSink::write_frame(std::span<const float> positions, AnimatedVal
   last_ =
       std::make_unique<AtomicFile>(is_first ? plain_name_ : pattern_.path(options_.first_number + frames_));
   write_mesh(*last_, format_,
-             {mesh_, properties_, positions, animated, object_name_, origin_,
-              materials_ ? materials_->library() : std::string()});
+             {mesh_, properties_, shows_nothing_ ? std::span<const float>() : positions, animated,
+              object_name_, origin_, materials_ ? materials_->library() : std::string()});
 }
 
 void MeshSequenceSink::finish() {

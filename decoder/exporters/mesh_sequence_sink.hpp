@@ -47,6 +47,7 @@ class MeshSequenceSink final : public FrameSink {
   MeshFormat format_;
   SinkOptions options_;
   Mesh mesh_;
+  bool shows_nothing_ = false;
   MeshProperties properties_;
   std::unique_ptr<MaterialFiles> materials_;  // of OBJ
   LossNotes losses_;

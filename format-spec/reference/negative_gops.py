@@ -30,9 +30,10 @@ def packets():
     yield case("frame_behind_digest", "malformed", "4.5", 0, gop(edit=lambda packets: packets + [space]))
     for kind in (2, 31, 64, 127):
         yield case(f"kind_{kind}", "unsupported", "4.5", 1, gop(edit=inserted(1, (kind, b"?"))))
-    yield "gop_kind_36", "malformed", "4.5.2", FRAMES - 2, stream(GOP1=put_gop(gop(edit=lambda packets: replaced(
-        1, (36, packets[1][1]))(packets))))
-    for kind in (37, 63):
+    for kind in (36, 37):
+        yield f"gop_kind_{kind}", "malformed", "4.5.2", FRAMES - 2, stream(GOP1=put_gop(gop(
+            edit=lambda packets, kind=kind: replaced(1, (kind, packets[1][1]))(packets))))
+    for kind in (38, 63):
         yield case(f"kind_{kind}", "unsupported", "4.5", 1, gop(edit=lambda packets, kind=kind: replaced(
             1, (kind, packets[1][1]))(packets)))
     yield case("kind_2_behind_frames", "unsupported", "4.5", 0, gop(edit=inserted(2, (2, b"?"))))

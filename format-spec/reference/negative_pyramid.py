@@ -74,11 +74,13 @@ def predictors():
     def kinds(*kinds):
         return lambda packets: [(32 + kind, packets[k][1]) for k, kind in enumerate(kinds)] + packets[2:]
 
-    for bit in range(4, 8):
+    for bit in (4, 6, 7):
         yield case(f"bit_{bit}", "unsupported", "4.5.1", gop(fields={"predictors": 5 + 2 ** bit}), plain)
     for named in (0, 2, 6):
         yield case(f"none_for_the_first_{named}", "malformed", "4.5.1", gop(fields={"predictors": named}), plain)
     yield case("pyramid_without_shape", "malformed", "4.5.1", gop(fields={"predictors": 13}), plain)
+    yield case("by_shape_without_shape", "malformed", "4.5.1", gop(fields={"predictors": 33}), plain)
+    yield case("by_shape_of_other_bits", "malformed", "4.5.1", along(fields={"predictors": 40}))
     yield case("elp_not_named", "malformed", "4.5.2", gop(fields={"predictors": 1}), plain)
     yield case("space_not_named", "malformed", "4.5.2", along(predictors=(SPACE, PYRAMID), fields={"predictors": 8}))
     yield case("pyramid_not_named", "malformed", "4.5.2", gop(edit=kinds(SPACE, PYRAMID)), plain)

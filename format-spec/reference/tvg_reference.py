@@ -137,7 +137,7 @@ ORDER = {
 # §8.1, by key of §4.1
 LIMITS = {1: 2 ** 24, 3: 2 ** 25, 5: 2 ** 16, 7: 2 ** 28, 9: 2 ** 36, 13: 2 ** 30, 15: 2 ** 30, 17: 2 ** 14}
 MESH_ENTRY, PLAN_ENTRY, GOP_ENTRY = 1, 2, 3  # kinds of §4.6
-SPACE, TIME, ELP, PYRAMID = 0, 1, 2, 3  # predictors of §7.2 and §7.7
+SPACE, TIME, ELP, PYRAMID, SHAPE = 0, 1, 2, 3, 5  # predictors of §7.2, §7.7 and §7.10
 ROWS = 4  # of frames in mode basis
 MODE_ELP, MODE_BASIS, MODE_LOSSLESS = 0, 1, 2
 
@@ -378,10 +378,10 @@ class Decoder:
                 digested = True
                 continue
             require(kind != 0, "4.5", "a second header")
-            require(32 <= kind <= 32 + ROWS, "4.5", f"packets of kind {kind} are not known", "unsupported")
+            require(32 <= kind <= 32 + SHAPE, "4.5", f"packets of kind {kind} are not known", "unsupported")
             require(decoded < header.frame_count, "4.5", "more frames than frame_count")
             require(header.predictors >> kind - 32 & 1, "4.5.2", "a predictor that the header does not name")
-            require(decoded > 0 or kind - 32 in (SPACE, PYRAMID, ROWS), "4.5.2", "nothing is there to predict the first frame from")
+            require(decoded > 0 or kind - 32 in (SPACE, PYRAMID, ROWS, SHAPE), "4.5.2", "nothing is there to predict the first frame from")
             ends = RangeDecoder if kind - 32 == ROWS else TwoEnded
             frames.frame(ends(header.positions(content), "7.5"), kind - 32)
             decoded += 1
@@ -556,10 +556,12 @@ class Header:
         """The fields of mode elp."""
         reader = self.reader
         self.predictors = reader.unsigned(1)
-        require(self.predictors < 16, "4.5.1", f"predictors {self.predictors}", "unsupported")
-        require(self.predictors & (1 << SPACE | 1 << PYRAMID), "4.5.1", "nothing can predict the first frame")
+        require(self.predictors & ~0b101111 == 0, "4.5.1", f"predictors {self.predictors}", "unsupported")
+        require(self.predictors & (1 << SPACE | 1 << PYRAMID | 1 << SHAPE), "4.5.1", "nothing can predict the first frame")
         require(mesh.turns or not self.predictors >> PYRAMID, "4.5.1", "the mesh has no reference shape")
         self.fine_bits, self.coarse_bits = reader.unsigned(1), reader.unsigned(1)
+        by_shape = self.predictors >> SHAPE & 1
+        require(not by_shape or self.fine_bits == self.coarse_bits == mesh.shape.bits, "4.5.1", "the shape's bits")
         require(1 <= self.fine_bits <= 24, "4.5.1", "fine_bits")
         require(1 <= self.coarse_bits <= self.fine_bits, "4.5.1", "coarse_bits")
         self.origin, self.step = [reader.f64() for _ in range(3)], reader.f64()
@@ -568,7 +570,7 @@ class Header:
         self.refuse_unknown_channels()
         fine = flags(reader.rest(), mesh.gates, self.fine_bits == self.coarse_bits)
         turns = mesh.turns if self.predictors >> PYRAMID & 1 else None
-        frames = Frames(mesh.gates, fine, self.fine_bits, self.coarse_bits, turns)
+        frames = Frames(mesh.gates, fine, self.fine_bits, self.coarse_bits, turns, mesh.shape)
         frames.origin, frames.step = self.origin, self.step
         return frames
 
@@ -794,7 +796,7 @@ def reference_shape(data, faces, V):
     require(all(map(math.isfinite, origin)), "5.3", "origin")
     require(math.isfinite(step) and step > 0, "5.3", "step")
     indices = ReferenceShape(RangeDecoder(reader.rest(), "5.3"), faces, V, bits).decode()
-    return Shape(indices, origin, step), neighbours
+    return Shape(indices, origin, step, bits), neighbours
 
 def shape_and_turns(data, faces, V, levels=()):
     """5.3 and 5.4."""
@@ -803,8 +805,8 @@ def shape_and_turns(data, faces, V, levels=()):
 
 class Shape:
     """5.3 Where a reference shape has the vertices: indices on a lattice."""
-    def __init__(self, indices, origin, step):
-        self.indices, self.origin, self.step = indices, origin, step
+    def __init__(self, indices, origin, step, bits):
+        self.indices, self.origin, self.step, self.bits = indices, origin, step, bits
 
 def surroundings(faces, V):
     """5.3.1 Surroundings. For each vertex its ring and its wings."""
@@ -1092,13 +1094,14 @@ def half(x):
 
 class Frames:
     """The frames of one GOP. turns: of the pyramid, where frames may be predicted along it."""
-    def __init__(self, gates, fine, fine_bits, coarse_bits, turns=None):
+    def __init__(self, gates, fine, fine_bits, coarse_bits, turns=None, shape=None):
         self.gates, self.fine = gates, fine
         self.B2, self.D = fine_bits, fine_bits - coarse_bits
         self.shift = [0 if is_fine else self.D for is_fine in fine]
         self.X, self.before = None, None  # padded indices of this frame and of the one before
         self.R = [[0, 0, 0] for _ in gates]
         self.levels = {}  # by set and level, made when they are first used
+        self.shape = shape  # of the mesh
         self.pyramid = PyramidFrames(self, turns) if turns else None
 
     def hashed_values(self):
@@ -1115,6 +1118,9 @@ class Frames:
         self.before, self.X, self.predictor = self.X, [[0, 0, 0] for _ in self.gates], predictor
         if predictor == PYRAMID:
             self.pyramid.frame(coder)
+        elif predictor == SHAPE:
+            # 7.10 Frames by the shape
+            self.X = [list(point) for point in self.shape.indices]
         else:
             self.frame_by_gates(coder)
         coder.finish()

@@ -20,7 +20,7 @@ constexpr std::uint8_t frame(Predictor predictor) {
   return static_cast<std::uint8_t>(kFrame + static_cast<std::uint8_t>(predictor));
 }
 constexpr bool is_frame(std::uint8_t kind) {
-  return kind >= kFrame && kind <= frame(Predictor::kRows);
+  return kind >= kFrame && kind <= frame(Predictor::kShape);
 }
 
 }  // namespace packet_kind

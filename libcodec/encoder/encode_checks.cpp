@@ -98,7 +98,8 @@ Status check_options(const EncodeOptions& options) {
                         std::isfinite(std::ldexp(*options.step, options.fine_bits - options.coarse_bits)))) {
     return invalid_argument("the step must be a positive length in the mesh's units, and finite");
   }
-  if (options.predictor > Predictor::kPyramid && options.predictor != Predictor::kAuto)
+  if (options.predictor == Predictor::kRows ||
+      (options.predictor > Predictor::kShape && options.predictor != Predictor::kAuto))
     return invalid_argument("there is no such predictor");
   if (options.first_frame > kMaxFirstFrame)
     return invalid_argument("the number of the first frame is too large");
@@ -209,7 +210,7 @@ Status resolve_max_error(EncodeOptions& options) {
 
 bool needs_shape(const EncodeOptions& options) {
   return options.mode != Mode::kElp || options.predictor == Predictor::kPyramid ||
-         options.predictor == Predictor::kAuto;
+         options.predictor == Predictor::kShape || options.predictor == Predictor::kAuto;
 }
 
 bool needs_box(const EncodeOptions& options) {

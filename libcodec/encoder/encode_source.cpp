@@ -31,13 +31,15 @@ void take_facts(const SourceFacts& facts, const Mesh& first, EncodeOptions& opti
     --options.max_meshes;
 }
 
-/// How frames are coded that have nothing to do with each other: a reference shape, or planes, would be
-/// for one frame.
-void suit_captured(EncodeOptions& options) {
+/// How frames are coded that have nothing to do with each other: each as the reference shape of its mesh,
+/// where it has one resolution. Planes would be for one frame.
+void suit_captured(const SourceFacts& facts, EncodeOptions& options) {
+  constexpr std::uint32_t kFewVertices = 256;  // that do not make up for what a shape has in front
   options.keep_vertex_order = false;
   if (options.mode == Mode::kLossless) return;
   options.mode = Mode::kElp;
-  options.predictor = Predictor::kElp;
+  const bool one_resolution = options.fine_bits == options.coarse_bits;
+  options.predictor = one_resolution && facts.vertices >= kFewVertices ? Predictor::kShape : Predictor::kElp;
 }
 
 /// What lies on the surface of a single frame is predicted from its shape, which is then of more use than the
@@ -57,7 +59,7 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
     const Result<std::optional<SourceFacts>> facts = look_through(source);
     if (!facts) return facts.error();
     captured = *facts && (*facts)->captured() && options.suit_captured;
-    if (captured) suit_captured(options);
+    if (captured) suit_captured(**facts, options);
     if (*facts) take_facts(**facts, source.mesh(), options);
   }
   if (options.max_error) {

@@ -19,6 +19,8 @@ Status ElpDecoder::begin(const GopHeader& header, std::shared_ptr<const GopMesh>
   const bool by_pyramid = elp.predictors.has(Predictor::kPyramid);
   if (by_pyramid && !mesh->pyramid)
     return malformed("§4.5.1", "a GOP is predicted along the pyramid of a mesh that has none");
+  if (elp.predictors.has(Predictor::kShape) && !shape_is_on(mesh->shape, elp.lattice))
+    return malformed("§4.5.1", "a GOP is predicted by a reference shape that is not on its lattice");
   const std::size_t vertex_count = mesh->coded.gates.size();
   std::size_t bytes =
       vertex_count * (PositionCoder::kBytesPerVertex + sizeof(turn_[0]) + 1) + PositionCoder::kMostModelBytes;

@@ -31,9 +31,10 @@ std::vector<std::uint8_t> ElpEncoder::finish() {
 EncodedFrame ElpEncoder::take(const FramePositions& frame) {
   positions_.next();
   quantize_frame(frame);
-  EncodedFrame encoded = input_.predictor == Predictor::kAuto
-                             ? encode_smaller()
-                             : encode(predictor_of(frames_taken_, input_.predictor));
+  const Predictor asked =
+      input_.predictor == Predictor::kShape && !is_the_shape() ? Predictor::kElp : input_.predictor;
+  EncodedFrame encoded =
+      asked == Predictor::kAuto ? encode_smaller() : encode(predictor_of(frames_taken_, asked));
   ++frames_taken_;
   predictors_.add(encoded.predictor);
   add_to_digest(digest_, std::as_const(positions_).indices());
@@ -41,7 +42,7 @@ EncodedFrame ElpEncoder::take(const FramePositions& frame) {
 }
 
 EncodedFrame ElpEncoder::encode(Predictor predictor) {
-  code_frame(coder_, predictor, positions_, along_pyramid_);
+  code_frame(coder_, predictor, positions_, along_pyramid_, mesh_.shape);
   return {predictor, coder_.finish()};
 }
 
@@ -57,6 +58,19 @@ EncodedFrame ElpEncoder::encode_smaller() {
   positions_ = std::move(positions_after);
   along_pyramid_ = std::move(pyramid_after);
   return by_gates;
+}
+
+/// Whether the frame that was quantized is the mesh's reference shape.
+bool ElpEncoder::is_the_shape() const {
+  const std::span<const Quad> indices = positions_.indices();
+  const auto& shape = mesh_.shape.indices;
+  if (!shape_is_on(mesh_.shape, input_.lattice) || shape.size() != indices.size()) return false;
+  for (std::size_t v = 0; v < shape.size(); ++v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (indices[v][axis] != shape[v][axis]) return false;
+    }
+  }
+  return true;
 }
 
 /// Quantizes a frame to the fine lattice; what has no flag then loses the bits its own lattice does not have.

@@ -30,6 +30,7 @@ class ElpEncoder {
   void quantize_frame(const FramePositions& frame);
   EncodedFrame encode(Predictor predictor);
   EncodedFrame encode_smaller();
+  bool is_the_shape() const;
 
   const GopInput& input_;
   const GopMesh& mesh_;

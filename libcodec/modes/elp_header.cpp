@@ -10,7 +10,7 @@ namespace tvg {
 namespace {
 
 constexpr const char* kSection = "§4.5.1";
-constexpr int kPredictors = 4;
+constexpr std::uint8_t kPredictors = 0b101111;  // all but rows
 constexpr Fault kShort{kSection, "the GOP's header is too short"};
 
 Fault fault_in(const Lattice& lattice) {
@@ -36,9 +36,10 @@ Fault parse(const GopHeader& header, ElpHeader& elp) {
   for (double& coordinate : lattice.origin) coordinate = reader.f64();
   lattice.step = reader.f64();
   if (!reader.ok()) return kShort;
-  if (elp.predictors.bits() >> kPredictors != 0)
+  if ((elp.predictors.bits() & ~kPredictors) != 0)
     return {kSection, "the GOP has a predictor that this decoder does not know", ErrorCode::kUnsupported};
-  if (!elp.predictors.has(Predictor::kSpace) && !elp.predictors.has(Predictor::kPyramid))
+  if (!elp.predictors.has(Predictor::kSpace) && !elp.predictors.has(Predictor::kPyramid) &&
+      !elp.predictors.has(Predictor::kShape))
     return {kSection, "the GOP has no predictor for its first frame"};
   if (const Fault fault = fault_in(lattice)) return fault;
   elp.flags = reader.bytes(reader.left());

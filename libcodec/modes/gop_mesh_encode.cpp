@@ -53,10 +53,11 @@ EncodedGopMesh finish_mesh(EncodedMesh encoded, const MeshProperties& properties
 }
 
 Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, double cell,
-                                   std::uint32_t neighbours, const MeshProperties& properties) {
+                                   std::uint32_t neighbours, const MeshProperties& properties,
+                                   const Lattice* on) {
   BoundingBox box;
   box.extend(first_frame);
-  ReferenceShape shape = shape_of(encoded.coded, first_frame, lattice_of(box, cell));
+  ReferenceShape shape = shape_of(encoded.coded, first_frame, on != nullptr ? *on : lattice_of(box, cell));
   shape.neighbours = neighbours;
   const Result<std::vector<Face>> faces = faces_by_traversal(encoded.coded);
   if (!faces) return faces.error();

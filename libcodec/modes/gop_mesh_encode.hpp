@@ -1,6 +1,7 @@
 #pragma once
 #include "connectivity/mesh_coder_encode.hpp"
 #include "modes/gop_mesh.hpp"
+#include "quantization/lattice.hpp"
 
 #include <cstdint>
 #include <span>
@@ -18,8 +19,10 @@ struct EncodedGopMesh {
 /// Without a reference shape. `properties` are those of the mesh, their bits settled.
 EncodedGopMesh finish_mesh(EncodedMesh encoded, const MeshProperties& properties);
 /// With one: the first frame, positions [vertex][xyz] in the order of the input, on a lattice of such cells
-/// or, where it would have too many, of larger ones; vertices are predicted from so many neighbours.
+/// or, where it would have too many, of larger ones; or on the lattice `on` where that is given, which holds
+/// it. Vertices are predicted from so many neighbours.
 Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> first_frame, double cell,
-                                   std::uint32_t neighbours, const MeshProperties& properties);
+                                   std::uint32_t neighbours, const MeshProperties& properties,
+                                   const Lattice* on = nullptr);
 
 }  // namespace tvg

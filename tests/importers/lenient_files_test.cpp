@@ -108,10 +108,12 @@ class LenientSequence : public ::testing::Test {
   std::string obj(float x, const std::string& faces = "f 1 2 3\nf 1 3 4\n") const {
     return "v " + std::to_string(x) + " 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + faces;
   }
-  OpenedSource open(const std::vector<std::string>& names, Gaps gaps = Gaps::kRefuse) const {
+  OpenedSource open(const std::vector<std::string>& names, Gaps gaps = Gaps::kRefuse,
+                    bool empty_frames = true) const {
     SourceSpec spec;
     for (const std::string& name : names) spec.inputs.push_back(folder_.path(name));
     spec.sequence.gaps = gaps;
+    spec.sequence.empty_frames = empty_frames;
     return open_source(spec);
   }
   /// x of the first vertex in every frame.
@@ -179,11 +181,54 @@ TEST_F(LenientSequence, AnEmptyFrameIsNamedHeldOrSkipped) {
     folder_.write("s/f" + std::to_string(number) + ".obj",
                   number == 1 ? std::string("v 0 0 0\n") : obj(static_cast<float>(number)));
   }
-  const Frames refused = read_all(*open({"s"}).source);
+  const Frames refused = read_all(*open({"s"}, Gaps::kRefuse, false).source);
   ASSERT_TRUE(refused.error);
   EXPECT_THAT(refused.error->message, HasSubstr("(frame 1). `--gaps hold`"));
-  EXPECT_THAT(walk(open({"s"}, Gaps::kHold)), ElementsAre(0, 0, 2));
-  EXPECT_THAT(walk(open({"s"}, Gaps::kSkip)), ElementsAre(0, 2));
+  EXPECT_THAT(walk(open({"s"}, Gaps::kHold, false)), ElementsAre(0, 0, 2));
+  EXPECT_THAT(walk(open({"s"}, Gaps::kSkip, false)), ElementsAre(0, 2));
+}
+
+/// What comes of a source: "4" for a mesh of so many vertices, then a letter for each frame.
+std::string steps_of(FrameSource& source) {
+  std::string steps = std::to_string(source.mesh().vertex_count);
+  FramePositions frame;
+  for (;;) {
+    const Result<SourceStep> step = read_step(source, frame);
+    if (!step || *step == SourceStep::kEnd) return steps + (step ? "" : "!");
+    steps += *step == SourceStep::kFrame ? "f" : std::to_string(source.mesh().vertex_count);
+  }
+}
+
+TEST_F(LenientSequence, AFileWithoutFacesIsAFrameThatShowsNothing) {
+  for (const int number : {0, 1, 2, 3, 4}) {
+    folder_.write("s/f" + std::to_string(number) + ".obj",
+                  number % 3 == 0 ? std::string() : obj(static_cast<float>(number)));
+  }
+  const OpenedSource opened = open({"s"});
+  EXPECT_EQ(steps_of(*opened.source), "1f4ff1f4f");
+  EXPECT_THAT(opened.later->texts(), Contains(HasSubstr("the frame shows nothing")));
+  ASSERT_TRUE(opened.source->rewind());
+  EXPECT_EQ(steps_of(*opened.source), "1f4ff1f4f");
+  folder_.write("n/f0.obj", "");
+  folder_.write("n/f1.obj", "");
+  EXPECT_THAT(thrown_by([&] { open({"n"}); }).what(), HasSubstr("no other file of the sequence has any"));
+}
+
+TEST_F(LenientSequence, AMeshThatComesAgainIsKnownWhateverTheOrderOfItsFaces) {
+  const std::string other = "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n";
+  const std::vector<std::string> files = {obj(0), other, obj(2, "f 3 4 1\nf 2 3 1\n"), other, obj(4)};
+  for (std::size_t i = 0; i < files.size(); ++i) folder_.write("s/f" + std::to_string(i) + ".obj", files[i]);
+  const OpenedSource opened = open({"s"});
+  FrameSource& source = *opened.source;
+  const Mesh first = source.mesh();
+  EXPECT_EQ(steps_of(source), "4f3f4f3f4f");
+  EXPECT_EQ(source.mesh(), first);
+  ASSERT_TRUE(source.rewind());
+  FramePositions frame;
+  for (int step = 0; step < 4; ++step) ASSERT_TRUE(read_step(source, frame));
+  EXPECT_EQ(source.mesh(), first);
+  ASSERT_EQ(*read_step(source, frame), SourceStep::kFrame);
+  EXPECT_EQ(frame[0], 2);
 }
 
 TEST_F(LenientSequence, AVertexWithoutAPlaceStaysWhereItWas) {

@@ -89,8 +89,7 @@ TEST_F(OpenSource, NamesFileFrameAndDifferenceWhereConnectivityChanges) {
   EXPECT_EQ(vertices.code, ErrorCode::kInvalidInput);
   EXPECT_THAT(vertices.message, HasSubstr("c/f2.obj (frame 2) has 5 vertices where "));
   EXPECT_THAT(vertices.message, HasSubstr("c/f0.obj has 4"));
-  EXPECT_THAT(vertices.message, HasSubstr("encode the frames 0-1 and those from 2 on separately"));
-  EXPECT_THAT(vertices.message, HasSubstr("`tvg join`"));
+  EXPECT_THAT(vertices.message, HasSubstr("`--frames 0-1` takes those of the one before"));
   EXPECT_THAT(error_with(obj_frame(2, "f 1 2 3\n")).message, HasSubstr("has 1 triangles where"));
   EXPECT_THAT(error_with(obj_frame(2, "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 4 3\n")).message,
               HasSubstr("has the vertices 1 3 2 in triangle 3, the face turned inside out of one in "));

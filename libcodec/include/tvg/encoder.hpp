@@ -57,7 +57,8 @@ struct EncodeOptions {
   bool keep_vertex_order = true;
   /// encode() alone: where each frame of the source has a mesh of its own, as captured volumes have, the
   /// order of vertices is given up, for it says nothing from frame to frame; and frames are coded by
-  /// themselves (mode elp and no reference shape), unless they are to be lossless.
+  /// themselves (mode elp and, where there is one lattice and meshes are not tiny, each as its mesh's
+  /// reference shape), unless they are to be lossless.
   bool suit_captured = false;
   /// Levels of the first mesh's vertices, and coarser meshes of it, at most 16, each with no more faces than
   /// the mesh. The pyramid is built from the levels; a coarser mesh can be played (Decoder::use_lod()), in

@@ -148,11 +148,12 @@ enum class Predictor : std::uint8_t {
   /// The mean of neighbours along the surface, coarse to fine, and how the vertex missed it before.
   kPyramid = 3,
   kRows = 4,    ///< rows of a frame in mode basis, which are no frame to choose a predictor for
+  kShape = 5,   ///< the mesh's reference shape is the frame (§7.10), for meshes that have one frame
   kAuto = 255,  ///< for an encoder: for each frame elp or pyramid, whichever takes fewer bytes
 };
 
 /// Predictors that frames have: all but kAuto.
-inline constexpr std::size_t kPredictorCount = 5;
+inline constexpr std::size_t kPredictorCount = 6;
 
 /// Meshes that may be in force at once (format-spec §4.1).
 inline constexpr std::uint32_t kMaxMeshesInForce = 1u << 16;
