@@ -1,6 +1,7 @@
 #include "encoder/importers/mesh_sequence.hpp"
 
 #include "encoder/importers/import_error.hpp"
+#include "encoder/importers/materials.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -32,17 +33,24 @@ std::string weld_note(const std::string& path, const StlWeld& stl) {
 
 }  // namespace
 
-WeldedMesh read_welded_mesh(const std::string& path, const WeldTolerance& tolerance) {
+WeldedMesh read_welded_mesh(const std::string& path, const SequenceOptions& options) {
   WeldedMesh welded;
   const MeshFormat format = mesh_format(path).value();
   std::string buffer;
+  welded.mesh.positions_only = !options.properties.wanted;
   read_mesh_file(path, format, buffer, welded.mesh);
   welded.notes = notes_on(path, welded.mesh);
   if (format == MeshFormat::kStl) {
-    const StlWeld stl(welded.mesh.positions, tolerance);
+    const StlWeld stl(welded.mesh.positions, options.weld);
     apply_weld(stl.weld(), welded.mesh);
     welded.notes.push_back(weld_note(path, stl));
   }
+  std::vector<std::string> notes;
+  if (options.properties.wanted)
+    welded.data = read_materials(path, welded.mesh, options.properties.embed_textures, welded.notes);
+  welded.properties = StretchProperties(welded.mesh, options.properties);
+  welded.properties.settle(welded.mesh.faces, true, notes);
+  for (const std::string& note : notes) welded.notes.push_back(fmt::format("{}: {}", path, note));
   return welded;
 }
 
@@ -72,6 +80,7 @@ void MeshSequenceSource::begin_stretch() {
     loaded_.reset();
   }
   if (name_.empty()) name_ = current_.name;
+  read_materials_of(file);
   know_mesh();
 }
 
@@ -93,24 +102,80 @@ bool MeshSequenceSource::load_next_mesh() {
   }
 }
 
+/// Whether the mesh that was read is one that was met before, with the same properties.
+bool MeshSequenceSource::is_known(KnownMesh& seen) {
+  if (seen.shows_nothing || seen.mesh.vertex_count != current_.vertex_count()) return false;
+  std::string ignored;
+  return seen.order.difference(current_, seen.file).empty() &&
+         seen.properties.read(current_, seen.mesh.faces, ignored).empty();
+}
+
 /// The mesh that was read is the present one; one that was met before stays as it was.
 void MeshSequenceSource::know_mesh() {
-  const auto same = [this](const std::shared_ptr<const KnownMesh>& seen) {
-    return !seen->shows_nothing && seen->mesh.vertex_count == current_.vertex_count() &&
-           seen->order.difference(current_, seen->file).empty();
-  };
-  const auto seen = std::find_if(seen_.rbegin(), seen_.rend(), same);
+  const auto seen =
+      std::find_if(seen_.rbegin(), seen_.rend(), [this](const auto& mesh) { return is_known(*mesh); });
   if (seen != seen_.rend()) {
     known_ = *seen;
     return;
   }
-  known_ = std::make_shared<const KnownMesh>(
+  known_ = std::make_shared<KnownMesh>(
       KnownMesh{{static_cast<std::uint32_t>(current_.vertex_count()), current_.faces},
                 FaceOrder(current_.faces, current_.polygons),
                 files_[stretch_],
-                false});
+                false,
+                StretchProperties(current_, options_.properties)});
+  look_ahead();
   seen_.push_back(known_);
   if (seen_.size() > kMostMeshesKnown) seen_.pop_front();
+}
+
+/// Finds out what of the mesh's properties changes from file to file.
+void MeshSequenceSource::look_ahead() {
+  const std::size_t last = files_.size() - 1;
+  if (known_->properties.vary() && last > stretch_ && look_at_file(stretch_ + 1)) {
+    const std::size_t middle = stretch_ + (last - stretch_) / 2;
+    if (middle > stretch_ + 1) look_at_file(middle);
+    if (last > stretch_ + 1) look_at_file(last);
+  }
+  std::vector<std::string> notes;
+  known_->properties.settle(known_->mesh.faces, false, notes);
+  tell(known_->file, notes);
+}
+
+/// Whether a file has the mesh of this stretch; then what it has beside is looked at.
+bool MeshSequenceSource::look_at_file(std::size_t file) {
+  if (files_[file] == known_->file) return true;
+  loaded_ahead_.reset();
+  ahead_.origin = options_.origin;
+  ahead_.positions_only = false;
+  try {
+    read_located_mesh(files_[file], format_, buffer_, ahead_);
+  } catch (const ImportError&) {
+    return false;  // told when the frame is read
+  }
+  loaded_ahead_ = file;
+  if (ahead_.vertex_count() != known_->mesh.vertex_count ||
+      !known_->order.difference(ahead_, known_->file).empty())
+    return false;
+  known_->properties.look_at(ahead_, known_->mesh.faces);
+  return true;
+}
+
+/// The materials of the first file with a mesh are those of the sequence.
+void MeshSequenceSource::read_materials_of(const std::string& file) {
+  if (known_ != nullptr || !data_.empty() || !options_.properties.wanted) return;
+  data_ = read_materials(file, current_, options_.properties.embed_textures, notes_);
+}
+
+/// Notes on the first mesh are told at once, on others later.
+void MeshSequenceSource::tell(const std::string& file, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (seen_.empty()) {
+      notes_.push_back(fmt::format("{}: {}", file, note));
+    } else {
+      later_->add(file, note);
+    }
+  }
 }
 
 /// Frames that show nothing have one vertex, where the frame before had its first, so that it lies within
@@ -119,7 +184,7 @@ void MeshSequenceSource::begin_empty_stretch(const std::string& what) {
   last_ = place_of_nothing();
   if (last_.empty())
     throw ImportError(ErrorCode::kInvalidInput, what + ", and no other file of the sequence has any");
-  known_ = std::make_shared<const KnownMesh>(KnownMesh{{1, {}}, FaceOrder(), files_[stretch_], true});
+  known_ = std::make_shared<KnownMesh>(KnownMesh{{1, {}}, FaceOrder(), files_[stretch_], true});
 }
 
 /// Empty where no frame shows anything.
@@ -129,6 +194,7 @@ std::vector<float> MeshSequenceSource::place_of_nothing() {
       try {
         load(file);
         if (!options_.origin) options_.origin = current_.origin.value_or(Origin{});
+        read_materials_of(files_[file]);
         place_.assign(current_.positions.begin(), current_.positions.begin() + 3);
       } catch (const EmptyInputError&) {
         continue;
@@ -140,9 +206,20 @@ std::vector<float> MeshSequenceSource::place_of_nothing() {
 
 /// Reads a file, unless it was the last that was read.
 bool MeshSequenceSource::load(std::size_t file) {
-  if (loaded_ == file) return false;
+  // Attributes that were left out of the mesh are not read of its other files, but of one that begins
+  // another.
+  const bool none_left = known_ != nullptr && known_->properties.all_left_out();
+  const bool positions_only = !options_.properties.wanted || (none_left && file != stretch_);
+  if (loaded_ == file && current_.positions_only == positions_only) return false;
   loaded_.reset();
+  if (loaded_ahead_ == file) {
+    std::swap(current_, ahead_);
+    loaded_ahead_.reset();
+    loaded_ = file;
+    return true;
+  }
   current_.origin = options_.origin;
+  current_.positions_only = positions_only;
   read_located_mesh(files_[file], format_, buffer_, current_);
   loaded_ = file;
   return true;
@@ -184,6 +261,7 @@ Metadata MeshSequenceSource::metadata() const {
   if (!name_.empty()) metadata.emplace("name", name_);
   if (options_.origin && !is_zero(*options_.origin))
     metadata.emplace(kOriginKey, origin_text(*options_.origin));
+  if (known_->properties.flat()) metadata.emplace("shading", "flat");
   return metadata;
 }
 
@@ -272,6 +350,7 @@ void MeshSequenceSource::read_positions(const std::string& path, std::span<float
   if (format_ != MeshFormat::kStl) {
     const std::string difference = known_->order.difference(current_, known_->file);
     if (!difference.empty()) fail_changed(path, difference);
+    read_values(path);
   }
   if (!last_.empty()) {
     for (const std::uint32_t vertex : current_.misplaced) {
@@ -284,6 +363,13 @@ void MeshSequenceSource::read_positions(const std::string& path, std::span<float
   place_.assign(current_.positions.begin(), current_.positions.begin() + 3);
   if (next_ == 0) return;
   for (const std::string& note : current_.notes) later_->add(path, note);
+}
+
+void MeshSequenceSource::read_values(const std::string& path) {
+  std::string note;
+  const std::string other = known_->properties.read(current_, known_->mesh.faces, note);
+  if (!other.empty()) fail_changed(path, fmt::format("has other {} than {}", other, known_->file));
+  if (!note.empty()) later_->add(path, note);
 }
 
 void MeshSequenceSource::fail_changed(const std::string& path, const std::string& difference) {
