@@ -1,7 +1,10 @@
 #include "encoder/importers/corner_values.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include <tvg/geometry.hpp>
 
 namespace tvg::cli {
 
@@ -77,6 +80,31 @@ std::size_t settle_corners(Attribute& attribute, std::span<const Face> faces, st
   attribute.values = std::move(values);
   attribute.corners.clear();
   return missing;
+}
+
+void share_values(Attribute& attribute, std::span<const Face> faces) {
+  const std::size_t components = attribute.components;
+  const auto vertex_of = [&](std::uint32_t corner) { return faces[corner / 3][corner % 3]; };
+  const auto value_of = [&](std::uint32_t corner) {
+    return attribute.values.data() + std::size_t{attribute.corners[corner]} * components;
+  };
+  const auto is_none = [&](std::uint32_t corner) { return attribute.corners[corner] == kNone; };
+  const auto hash = [&](std::uint32_t corner) {
+    std::uint64_t mixed = mix_hash(0, vertex_of(corner));
+    for (std::size_t i = 0; i < components && !is_none(corner); ++i)
+      mixed = mix_hash(mixed, std::bit_cast<std::uint32_t>(value_of(corner)[i] + 0.0F));
+    return mixed;
+  };
+  const auto equal = [&](std::uint32_t a, std::uint32_t b) {
+    if (vertex_of(a) != vertex_of(b) || is_none(a) || is_none(b))
+      return vertex_of(a) == vertex_of(b) && is_none(a) && is_none(b);
+    return std::equal(value_of(a), value_of(a) + components, value_of(b));
+  };
+  const Weld weld = weld_points(attribute.corners.size(), hash, equal);
+  std::vector<std::uint32_t> shared(attribute.corners.size());
+  for (std::size_t corner = 0; corner < shared.size(); ++corner)
+    shared[corner] = attribute.corners[weld.first_point[weld.vertex_of_point[corner]]];
+  attribute.corners = std::move(shared);
 }
 
 std::size_t clear_non_finite(std::span<float> values) {

@@ -49,6 +49,9 @@ class CornerValues {
 /// value_count() or kNone.
 std::size_t settle_corners(Attribute& attribute, std::span<const Face> faces, std::size_t vertex_count);
 
+/// Gives corners of one vertex that have equal values one of them. Indices as for settle_corners().
+void share_values(Attribute& attribute, std::span<const Face> faces);
+
 /// Sets numbers that are NaN or infinite to 0; returns how many there were.
 std::size_t clear_non_finite(std::span<float> values);
 

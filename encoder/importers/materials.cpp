@@ -43,6 +43,14 @@ class MaterialsBuilder {
   }
 
   void add_library(const std::string& path);
+  /// A material that is a texture, with its name.
+  void add_texture(const std::string& file, const fs::path& folder) {
+    if (!names_.insert(file).second) return;
+    MtlMaterial material;
+    material.name = file;
+    material.diffuse_map.file = file;
+    add(material, folder);
+  }
   /// A material of which nothing but its name is known; nothing where it is known.
   void add_name(const std::string& name) {
     if (!names_.insert(name).second) return;
@@ -209,6 +217,7 @@ std::vector<NamedData> read_materials(const std::string& mesh_path, const MeshFi
     notes.push_back(fmt::format("{}: its material file {} is not there: of its materials only names are kept",
                                 mesh_path, readable_name(name, latin)));
   }
+  for (const std::string& file : mesh.texture_files) builder.add_texture(file, folder);
   for (const Part& part : mesh.parts) {
     if (!part.material.empty()) builder.add_name(part.material);
   }

@@ -38,6 +38,7 @@ void MeshFile::clear() {
   parts.clear();
   face_parts.clear();
   material_files.clear();
+  texture_files.clear();
   misplaced.clear();
   notes.clear();
   finer_than_float = false;

@@ -27,6 +27,8 @@ struct MeshFile {
   std::vector<Part> parts;
   std::vector<std::uint32_t> face_parts;    ///< [face], its part; empty where there are no parts
   std::vector<std::string> material_files;  ///< OBJ's mtllib, as the file names them
+  /// Of PLY: files of textures; each is a material of its own, with the same name.
+  std::vector<std::string> texture_files;
   std::vector<std::uint32_t>
       misplaced;                   ///< vertices without a place (NaN), which no face uses: they are at 0
   std::vector<std::string> notes;  ///< what was left out or put right: "1 face with ... left out"
@@ -49,7 +51,7 @@ struct MeshFile {
 void parse_obj(const std::string& file, std::string_view bytes, MeshFile& mesh);
 /// ASCII and both binary byte orders, any properties and elements.
 void parse_ply(const std::string& file, std::string_view bytes, MeshFile& mesh);
-/// OFF with any of the prefixes ST, C, N; the columns they add are skipped.
+/// OFF with any of the prefixes ST, C, N and the columns they add.
 void parse_off(const std::string& file, std::string_view bytes, MeshFile& mesh);
 /// ASCII and binary. The result is not welded: vertex i is corner i, and face f is {3f, 3f + 1, 3f + 2}.
 void parse_stl(const std::string& file, std::string_view bytes, MeshFile& mesh);

@@ -125,8 +125,9 @@ OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string
   if (!welded.mesh.name.empty()) metadata.emplace("name", welded.mesh.name);
   if (welded.properties.flat()) metadata.emplace("shading", "flat");
   Mesh mesh{static_cast<std::uint32_t>(welded.mesh.vertex_count()), std::move(welded.mesh.faces)};
-  auto source =
-      open_cache(cache, std::move(mesh), std::move(metadata), mesh_path, welded.notes, spec.open_ended);
+  CacheOptions options{.open_ended = spec.open_ended};
+  if (!spec.scene.fps.empty()) options.frame_rate = parse_rate(spec.scene.fps);
+  auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path, welded.notes, options);
   source = std::make_unique<PropertiesSource>(std::move(source), welded.properties.properties(),
                                               std::move(welded.data));
   source = turned(std::move(source), spec, cache, mesh_path, welded.mesh.positions, welded.notes);

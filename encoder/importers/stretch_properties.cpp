@@ -65,8 +65,7 @@ StretchProperties::StretchProperties(const MeshFile& first, const PropertyOption
   file_attributes_ = count_of_faces(properties_.attributes);
   tracks_.resize(properties_.attributes.size());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    Attribute& attribute = properties_.attributes[i];
-    if (attribute.bits == Attribute::kBitsOfKind) attribute.bits = options.bits_of(attribute.kind);
+    const Attribute& attribute = properties_.attributes[i];
     for (std::size_t before = 0; before < i; ++before)
       tracks_[i].occurrence += same_kind(properties_.attributes[before], attribute) ? 1 : 0;
     if (attribute.kind == AttributeKind::kNormal && options.normals == NormalsChoice::kAuto)

@@ -88,16 +88,28 @@ template float TextCursor::real<float>();
 template double TextCursor::real<double>();
 
 float TextCursor::number_or_nan() {
-  std::string_view text = word();
+  TextCursor ahead = *this;
+  std::string_view text = ahead.word();
   if (text.starts_with('+')) text.remove_prefix(1);
   float value = 0;
   const auto [after, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{} && after == text.data() + text.size()) return value;
+  if (error == std::errc{} && after == text.data() + text.size()) {
+    *this = ahead;
+    return value;
+  }
   // What is too small for float32 is an error to from_chars().
-  double wide = 0;
-  const auto [end, wide_error] = std::from_chars(text.data(), text.data() + text.size(), wide);
-  const bool small = wide_error == std::errc{} && end == text.data() + text.size() && std::abs(wide) < 1;
-  return small ? static_cast<float>(wide) : std::numeric_limits<float>::quiet_NaN();
+  const double wide = wide_number_or_nan();
+  return std::abs(wide) < 1 ? static_cast<float>(wide) : std::numeric_limits<float>::quiet_NaN();
+}
+
+double TextCursor::wide_number_or_nan() {
+  std::string_view text = word();
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [after, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && after == text.data() + text.size()
+             ? value
+             : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::int64_t TextCursor::integer_prefix() {
@@ -147,7 +159,8 @@ void TextCursor::fail(const std::string& what, ErrorCode code) const {
 }
 
 void TextCursor::fail_at_end(const std::string& inside) const {
-  throw ImportError(ErrorCode::kTruncated, fmt::format("{} ends at line {} inside {}", *file_, line_, inside));
+  throw ImportError(ErrorCode::kTruncated,
+                    fmt::format("{} ends at line {} inside {}", *file_, line_, inside));
 }
 
 std::string_view without_byte_order_mark(const std::string& file, std::string_view bytes) {

@@ -59,6 +59,8 @@ class TextCursor {
   double wide_number() { return real<double>(); }
   /// The next word of this line as a number; NaN where it is none, is missing or is too large for float32.
   float number_or_nan();
+  /// The same for double.
+  double wide_number_or_nan();
   /// The next whole number of this line, which ends at a blank.
   std::int64_t integer();
   /// As integer(), but what follows the digits is left for the caller.

@@ -271,7 +271,8 @@ TEST_F(LenientSequence, UnevenTimesAreTold) {
   std::string uneven = mdd_bytes(4, 4, 4, 0.04);
   uneven[8 + 4 * 2] = 'B';
   folder_.write("a.mdd", uneven);
-  EXPECT_THAT(open({"a.obj"}).notes, Contains(HasSubstr("are uneven from frame 2 on, and are lost")));
+  EXPECT_THAT(open({"a.obj"}).notes,
+              Contains(HasSubstr("are uneven from frame 2 on: the time of each frame is kept")));
 }
 
 TEST(QuarterTurn, IsFoundBothWaysAndNotWhereThereIsNone) {
