@@ -30,7 +30,7 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
   command
       .add_option(
           "input", arguments.inputs,
-          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY; - for standard input), or a "
+          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY, NPZ; - for standard input), or a "
           "sequence of "
           "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the "
           "files, or a scene (glTF 2, FBX, COLLADA, X, "
@@ -45,6 +45,8 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
           "the axis that is up in the cache, where its mesh has the other (Blender: OBJ y, MDD z): the "
           "cache is turned to the mesh")
       ->check(CLI::IsMember({"y", "z"}));
+  command.add_option("--array", arguments.array,
+                     "the array of a .npz that has the positions (default: the one that fits the mesh)");
   command.add_option("--clip", arguments.clip,
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
   command.add_option(
@@ -160,6 +162,7 @@ OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
   spec.sequence = sequence_options(arguments.gaps, arguments.weld);
   spec.sequence.properties = property_options(arguments);
   spec.cache_up = arguments.cache_up;
+  spec.array = arguments.array;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     opened.first_frame = spec.frames->first;

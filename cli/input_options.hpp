@@ -26,6 +26,7 @@ struct InputArguments {
   std::string gaps;
   std::string weld;
   std::string cache_up;
+  std::string array;
   std::string normals = "auto";
   std::string attributes = "all";
   std::string uv_bits;

@@ -298,6 +298,7 @@ std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Meta
                                         const std::string& mesh_file, std::vector<std::string>& notes,
                                         const CacheOptions& options) {
   if (has_suffix(path, ".npy")) return open_npy(path, std::move(mesh), std::move(metadata), mesh_file);
+  if (has_suffix(path, ".npz")) return open_npz(path, mesh, metadata, mesh_file, options.array);
   return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, notes, options);
 }
 

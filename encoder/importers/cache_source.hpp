@@ -10,6 +10,7 @@ namespace tvg::cli {
 struct CacheOptions {
   bool open_ended = false;  ///< as in SourceSpec
   double frame_rate = 0;    ///< that a user gave, which goes before the cache's times; 0 for none
+  std::string array = {};   ///< of a .npz, the array to take; empty for the one that fits
 };
 
 /// Opens a vertex cache, PC2, PC16 (PC2 with float16 positions, by its suffix) or MDD

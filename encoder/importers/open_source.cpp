@@ -25,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKnownFormats =
-    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16, .mdd or .npy, sequences are folders or "
+    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16, .mdd, .npy or .npz, sequences are folders "
+    "or "
     "patterns "
     "such as "
     "walk_%04d.obj";
@@ -125,7 +126,9 @@ OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string
   if (!welded.mesh.name.empty()) metadata.emplace("name", welded.mesh.name);
   if (welded.properties.flat()) metadata.emplace("shading", "flat");
   Mesh mesh{static_cast<std::uint32_t>(welded.mesh.vertex_count()), std::move(welded.mesh.faces)};
-  CacheOptions options{.open_ended = spec.open_ended};
+  CacheOptions options;
+  options.open_ended = spec.open_ended;
+  options.array = spec.array;
   if (!spec.scene.fps.empty()) options.frame_rate = parse_rate(spec.scene.fps);
   auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path, welded.notes, options);
   source = std::make_unique<PropertiesSource>(std::move(source), welded.properties.properties(),

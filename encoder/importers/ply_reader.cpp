@@ -43,7 +43,6 @@ class TextValues {
     return mesh.origin ? mesh.relative(cursor_.wide_number(), axis) : cursor_.number();
   }
   std::int64_t integer(PlyType) { return cursor_.integer(); }
-  /// Any number; NaN where it is none.
   double number(PlyType type) {
     if (cursor_.at_line_end()) cursor_.fail("fewer values than the header promises");
     return type == PlyType::kFloat32 ? double{cursor_.number_or_nan()} : cursor_.wide_number_or_nan();
@@ -147,7 +146,7 @@ class BinaryValues {
   std::uint64_t index_ = 0;
 };
 
-/// The list of an element that holds vertices; the number of properties where there is none.
+/// The list of an element that holds vertices; else the number of properties.
 std::size_t indices_property(const PlyElement& element) {
   const std::size_t index = element.find("vertex_indices");
   return index < element.properties.size() ? index : element.find("vertex_index");
@@ -246,7 +245,9 @@ class BodyReader {
       if (texture < none) add_texture_of_face();
     }
     for (std::size_t p = 0; p < none && !mesh_.positions_only; ++p) {
-      if (p != list && p != texcoords && p != texture) left_out_.push_back(element.properties[p].name);
+      const std::string& name = element.properties[p].name;
+      if (p != list && p != texcoords && p != texture)
+        left_out_.push_back(is_plain_text(name) ? name : "(binary)");
     }
   }
 
@@ -266,11 +267,8 @@ class BodyReader {
     if (mesh_.positions_only) return;
     if (attributes_) attributes_->finish(mesh_);
     texcoords_.finish(mesh_);
-    if (!left_out_.empty()) {
-      std::vector<std::string> names;
-      for (const std::string& name : left_out_) names.push_back(is_plain_text(name) ? name : "(binary)");
-      mesh_.notes.push_back(fmt::format("the face properties {} are left out", fmt::join(names, ", ")));
-    }
+    if (!left_out_.empty())
+      mesh_.notes.push_back(fmt::format("the face properties {} are left out", fmt::join(left_out_, ", ")));
     if (header_.textures.empty()) return;
     mesh_.texture_files = header_.textures;
     for (const std::string& texture : header_.textures) mesh_.parts.push_back({"", "", texture});
