@@ -153,6 +153,7 @@ EncodeOptions options_of(const EncodeArguments& arguments) {
   if (arguments.live && arguments.period.empty()) options.period_frames = options.gop_frames;
   if (arguments.live) options.threads = 1;  // with more, a GOP would wait for those that follow it
   options.metadata = metadata_of(arguments);
+  options.attribute_bits = attribute_bits(arguments);
   return options;
 }
 
@@ -331,6 +332,7 @@ void add_encode_command(CLI::App& tool) {
                   "frames that can be decoded on their own (default 50; in mode basis 32; with --live 15)")
       ->check(CLI::Range(1, 65536));
   add_level_options(command, arguments->levels);
+  add_property_options(command, *arguments);
   auto* reorder = command.add_flag("--reorder", arguments->reorder,
                                    "give up the vertex order, which saves about a byte per vertex");
   command

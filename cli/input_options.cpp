@@ -8,6 +8,7 @@
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <fmt/format.h>
 
 namespace tvg::cli {
@@ -29,7 +30,7 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
   command
       .add_option(
           "input", arguments.inputs,
-          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY; - for standard input), or a "
+          "a mesh (OBJ, PLY, OFF, STL) and its cache (PC2, PC16, MDD, NPY, NPZ; - for standard input), or a "
           "sequence of "
           "mesh files: a folder, a pattern (walk_%04d.obj, walk_####.obj, %04d/mesh.obj) or the "
           "files, or a scene (glTF 2, FBX, COLLADA, X, "
@@ -44,12 +45,69 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
           "the axis that is up in the cache, where its mesh has the other (Blender: OBJ y, MDD z): the "
           "cache is turned to the mesh")
       ->check(CLI::IsMember({"y", "z"}));
+  command.add_option("--array", arguments.array,
+                     "the array of a .npz that has the positions (default: the one that fits the mesh)");
   command.add_option("--clip", arguments.clip,
                      "the clip of a scene, by name or number (default: the first); tvg info lists them");
   command.add_option(
       "--mesh", arguments.meshes,
       "a mesh of a scene, by its name or its node's, or by number; may be repeated (default: all)");
   add_skeleton_option(command, arguments.skeleton);
+}
+
+void add_property_options(CLI::App& command, InputArguments& arguments) {
+  command
+      .add_option("--attributes", arguments.attributes,
+                  "what is kept beside positions: all that the input has (texture coordinates, normals, "
+                  "colours, parts, materials), or none")
+      ->check(CLI::IsMember({"all", "none"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--normals", arguments.normals,
+          "drop leaves them to the player, keep keeps them, auto drops those that the faces give anyway")
+      ->check(CLI::IsMember({"auto", "keep", "drop"}))
+      ->capture_default_str();
+  command.add_option("--uv-bits", arguments.uv_bits,
+                     "bits per texture coordinate, 1 to 24, or exact (default 12)");
+  command.add_option("--normal-bits", arguments.normal_bits,
+                     "bits of each of a normal's two coordinates, 1 to 16, or exact (default 10)");
+  command.add_option("--colour-bits", arguments.colour_bits,
+                     "bits per component of a colour, 1 to 24, or exact (default 8)");
+  command.add_flag("--embed-textures", arguments.embed_textures,
+                   "put the files of textures into the stream; without it, it has their names");
+}
+
+namespace {
+
+/// A number of bits as typed; `exact` is 0.
+int bits_typed(const char* option, const std::string& text, int usual, int most) {
+  if (text.empty()) return usual;
+  if (text == "exact") return Attribute::kExact;
+  int bits = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), bits);
+  if (error != std::errc() || end != text.data() + text.size() || bits < 0 || bits > most)
+    fail_option(option, text, fmt::format("write a number of bits from 1 to {}, or exact", most));
+  return bits;
+}
+
+PropertyOptions property_options(const InputArguments& arguments) {
+  PropertyOptions options;
+  options.wanted = arguments.attributes != "none";
+  if (arguments.normals == "keep") options.normals = NormalsChoice::kKeep;
+  if (arguments.normals == "drop") options.normals = NormalsChoice::kDrop;
+  options.embed_textures = arguments.embed_textures;
+  return options;
+}
+
+}  // namespace
+
+AttributeBits attribute_bits(const InputArguments& arguments) {
+  AttributeBits bits;
+  bits.texcoord = bits_typed("--uv-bits", arguments.uv_bits, bits.texcoord, kMaxAttributeBits);
+  bits.normal = bits_typed("--normal-bits", arguments.normal_bits, bits.normal, kMaxNormalBits);
+  bits.colour = bits_typed("--colour-bits", arguments.colour_bits, bits.colour, kMaxAttributeBits);
+  return bits;
 }
 
 SequenceOptions sequence_options(const std::string& gaps, const std::string& weld) {
@@ -102,7 +160,9 @@ OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
   spec.open_ended = open_ended;
   spec.sequence = sequence_options(arguments.gaps, arguments.weld);
+  spec.sequence.properties = property_options(arguments);
   spec.cache_up = arguments.cache_up;
+  spec.array = arguments.array;
   if (!arguments.frames.empty()) {
     spec.frames = parse_frame_range(arguments.frames);
     opened.first_frame = spec.frames->first;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <tvg/encoder.hpp>
+
 namespace CLI {
 class App;
 }
@@ -24,6 +26,13 @@ struct InputArguments {
   std::string gaps;
   std::string weld;
   std::string cache_up;
+  std::string array;
+  std::string normals = "auto";
+  std::string attributes = "all";
+  std::string uv_bits;
+  std::string normal_bits;
+  std::string colour_bits;
+  bool embed_textures = false;
 };
 
 /// Declares the inputs, --frames, --gaps, --weld, --cache-up, --clip, --mesh and --skeleton; `arguments` must
@@ -35,6 +44,12 @@ void add_input_options(CLI::App& command, InputArguments& arguments, const std::
 void add_sequence_options(CLI::App& command, std::string& gaps, std::string& weld);
 /// What they say, as typed. Throws ToolError (kUsage).
 SequenceOptions sequence_options(const std::string& gaps, const std::string& weld);
+
+/// Declares what is kept of the inputs beside positions: --attributes, --normals, --uv-bits, --normal-bits,
+/// --colour-bits and --embed-textures. A command without them keeps what it can.
+void add_property_options(CLI::App& command, InputArguments& arguments);
+/// How fine attributes are, as these options say. Throws ToolError (kUsage).
+AttributeBits attribute_bits(const InputArguments& arguments);
 
 /// Declares --skeleton alone.
 void add_skeleton_option(CLI::App& command, std::string& skeleton);

@@ -10,7 +10,7 @@ namespace tvg::cli {
 
 namespace {
 
-constexpr std::array<const char*, 4> kCacheSuffixes = {".pc2", ".pc16", ".mdd", ".npy"};
+constexpr std::array<const char*, 5> kCacheSuffixes = {".pc2", ".pc16", ".mdd", ".npy", ".npz"};
 
 }  // namespace
 

@@ -12,7 +12,7 @@ enum class MeshFormat { kObj, kPly, kOff, kStl };
 /// Whether `path` ends with `suffix` (".obj"), in either case.
 bool has_suffix(const std::string& path, std::string_view suffix);
 
-/// Whether `path` names a vertex cache: .pc2, .pc16, .mdd or .npy, in either case.
+/// Whether `path` names a vertex cache: .pc2, .pc16, .mdd, .npy or .npz, in either case.
 bool is_cache_file(const std::string& path);
 
 /// The caches that lie beside a mesh file under its name ("hand.pc2" beside "hand.obj").

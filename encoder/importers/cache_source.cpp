@@ -1,6 +1,7 @@
 #include "encoder/importers/cache_source.hpp"
 
 #include "encoder/importers/bytes.hpp"
+#include "encoder/importers/frame_times.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/mesh_file.hpp"
@@ -34,70 +35,24 @@ struct CacheLayout {
   std::uint64_t file_size() const { return data_offset + frames * frame_size(); }
 };
 
-/// Watches the times of an MDD cache go by and finds their rate without keeping them.
-class FrameRate {
- public:
-  void add(double time) {
-    if (count_ == 0) first_ = time;
-    if (count_ == 1) step_ = time - first_;
-    const double expected = first_ + static_cast<double>(count_) * step_;
-    // A thousandth of a step, and what float32 rounds away.
-    const double tolerance = 1e-3 * step_ + 1e-6 * std::abs(expected);
-    if (!(std::abs(time - expected) <= tolerance)) {
-      if (even_) first_uneven_ = count_;
-      even_ = false;
-    }
-    last_ = time;
-    ++count_;
-  }
-
-  /// What a user should know of times that a stream cannot keep; empty where they are even.
-  std::string uneven_note() const {
-    if (even_) return "";
-    return fmt::format(
-        "its times, {:.6g} to {:.6g}, are uneven from frame {} on, and are lost: the stream has its frames "
-        "at even "
-        "distances (--fps says how many a second)",
-        first_, last_, first_uneven_);
-  }
-
-  /// "30", "30000/1001" or the like; empty where the times are uneven or count frames instead of seconds.
-  std::string text() const {
-    if (!even_ || count_ < 2) return "";
-    const double rate = static_cast<double>(count_ - 1) / (last_ - first_);
-    if (!(rate > 1.001 && rate < 1000)) return "";
-    const double whole = std::round(rate);
-    if (std::abs(rate - whole) < 1e-4 * rate) return fmt::format("{:.0f}", whole);
-    const double ntsc = std::round(rate * 1.001);
-    if (std::abs(rate - ntsc / 1.001) < 1e-4 * rate) return fmt::format("{:.0f}/1001", 1000 * ntsc);
-    return fmt::format("{:.0f}/1000", std::round(1000 * rate));
-  }
-
- private:
-  std::uint64_t count_ = 0;
-  double first_ = 0;
-  double step_ = 0;
-  double last_ = 0;
-  bool even_ = true;
-  std::uint64_t first_uneven_ = 0;
-};
-
 class CacheSource final : public FrameSource {
  public:
   CacheSource(const std::string& path, Mesh mesh, Metadata metadata, std::string mesh_file,
-              std::vector<std::string>& notes, bool open_ended)
+              std::vector<std::string>& notes, const CacheOptions& options)
       : file_(path),
         mesh_(std::move(mesh)),
         metadata_(std::move(metadata)),
         mesh_file_(std::move(mesh_file)),
         named_pc2_(has_suffix(path, ".pc2") || has_suffix(path, ".pc16")),
-        open_ended_(open_ended && !file_.size()) {
+        open_ended_(options.open_ended && !file_.size()),
+        given_rate_(options.frame_rate) {
     layout_.half = has_suffix(path, ".pc16");
     read_header(notes);
   }
 
   const Mesh& mesh() const override { return mesh_; }
   Metadata metadata() const override { return metadata_; }
+  std::span<const NamedData> data() const override { return data_; }
   std::optional<std::uint64_t> frame_count() const override {
     if (open_ended_) return std::nullopt;
     return layout_.frames;
@@ -109,6 +64,7 @@ class CacheSource final : public FrameSource {
  private:
   void read_header(std::vector<std::string>& notes);
   void read_pc2_header(std::span<char> header);
+  void take_pc2_start(float frame, std::vector<std::string>& notes);
   void read_mdd_times(std::vector<std::string>& notes);
   void count_unfinished(std::vector<std::string>& notes);
   void check_counts(std::int64_t points, std::int64_t frames) const;
@@ -132,6 +88,8 @@ class CacheSource final : public FrameSource {
   std::string mesh_file_;
   bool named_pc2_;
   bool open_ended_;  // of a PC2 cache: frames come until the input ends
+  double given_rate_;
+  std::vector<NamedData> data_;
   CacheLayout layout_;
   std::uint64_t next_ = 0;  // frame
 };
@@ -155,6 +113,7 @@ void CacheSource::read_header(std::vector<std::string>& notes) {
     count_unfinished(notes);
     check_counts(static_cast<std::int32_t>(layout_.points), static_cast<std::int32_t>(layout_.frames));
     check_size(notes);
+    take_pc2_start(load<float>(header.data() + 20, false), notes);
   } else {
     open_ended_ = false;  // the table of times has an end
     layout_.frames = load<std::uint32_t>(header.data(), true);
@@ -175,6 +134,17 @@ void CacheSource::read_pc2_header(std::span<char> header) {
   layout_.points = load<std::uint32_t>(header.data() + 16, false);
   layout_.frames = load<std::uint32_t>(header.data() + 28, false);
   layout_.data_offset = kPc2HeaderSize;
+}
+
+/// Programs begin with frame 0 or 1, so of these nothing is said.
+void CacheSource::take_pc2_start(float frame, std::vector<std::string>& notes) {
+  if (!std::isfinite(frame) || frame == 0) return;
+  if (given_rate_ > 0) {
+    metadata_.emplace("start", fmt::format("{:.9g}", double{frame} / given_rate_));
+  } else if (frame != 1) {
+    notes.push_back(fmt::format("{}: it begins with frame {:.6g}, and when that is, is kept with --fps only",
+                                file_.name(), frame));
+  }
 }
 
 /// A program that writes a PC2 front to back fills in the number of frames at the end; where it did not get
@@ -222,20 +192,29 @@ void CacheSource::check_size(std::vector<std::string>& notes) const {
 
 void CacheSource::read_mdd_times(std::vector<std::string>& notes) {
   std::array<char, 4096> block;
-  FrameRate rate;
+  FrameTimes times;
   for (std::uint64_t done = 0; done < layout_.frames;) {
     const auto wanted = std::min<std::uint64_t>(block.size() / sizeof(float), layout_.frames - done);
     const std::size_t got = file_.read(block.data(), wanted * sizeof(float));
     if (got < wanted * sizeof(float)) {
       fail_at_end(kMddHeaderSize + done * sizeof(float) + got, "its table of times; " + promise());
     }
-    for (std::size_t i = 0; i < wanted; ++i)
-      rate.add(double{load<float>(block.data() + sizeof(float) * i, true)});
+    for (std::size_t i = 0; i < wanted; ++i) times.add(load<float>(block.data() + sizeof(float) * i, true));
     done += wanted;
   }
-  if (const std::string fps = rate.text(); !fps.empty()) metadata_.emplace("fps", fps);
-  if (const std::string uneven = rate.uneven_note(); !uneven.empty())
-    notes.push_back(fmt::format("{}: {}", file_.name(), uneven));
+  if (const std::string fps = times.rate(); !fps.empty()) metadata_.emplace("fps", fps);
+  if (const std::string start = times.start(given_rate_); !start.empty()) metadata_.emplace("start", start);
+  const std::size_t uneven = times.first_uneven();
+  if (uneven == layout_.frames) return;
+  if (given_rate_ > 0) {
+    notes.push_back(fmt::format("{}: its times, {}, are uneven from frame {} on, and give way to --fps",
+                                file_.name(), times.span(), uneven));
+  } else {
+    data_.push_back(times.data());
+    notes.push_back(
+        fmt::format("{}: its times, {}, are uneven from frame {} on: the time of each frame is kept",
+                    file_.name(), times.span(), uneven));
+  }
 }
 
 Result<bool> CacheSource::read_frame(std::span<float> positions) {
@@ -317,10 +296,10 @@ bool CacheSource::rewind() {
 
 std::unique_ptr<FrameSource> open_cache(const std::string& path, Mesh mesh, Metadata metadata,
                                         const std::string& mesh_file, std::vector<std::string>& notes,
-                                        bool open_ended) {
+                                        const CacheOptions& options) {
   if (has_suffix(path, ".npy")) return open_npy(path, std::move(mesh), std::move(metadata), mesh_file);
-  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, notes,
-                                       open_ended);
+  if (has_suffix(path, ".npz")) return open_npz(path, mesh, metadata, mesh_file, options.array);
+  return std::make_unique<CacheSource>(path, std::move(mesh), std::move(metadata), mesh_file, notes, options);
 }
 
 }  // namespace tvg::cli

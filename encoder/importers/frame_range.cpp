@@ -1,6 +1,18 @@
 #include "encoder/importers/frame_range.hpp"
 
+#include "encoder/importers/frame_times.hpp"
+
+#include <utility>
+
 namespace tvg::cli {
+
+FrameRangeSource::FrameRangeSource(std::unique_ptr<FrameSource> source, const FrameRange& range)
+    : SourceDecorator(std::move(source)), range_(range) {
+  for (const NamedData& data : SourceDecorator::data()) {
+    data_.push_back(data.name == kTimesData ? cut_times(data, range.first, range.last - range.first + 1)
+                                            : data);
+  }
+}
 
 Status FrameRangeSource::go_to_range() {
   if (skipped_) return {};

@@ -34,6 +34,11 @@ void MeshFile::clear() {
   faces.clear();
   polygons.clear();
   name.clear();
+  attributes.clear();
+  parts.clear();
+  face_parts.clear();
+  material_files.clear();
+  texture_files.clear();
   misplaced.clear();
   notes.clear();
   finer_than_float = false;

@@ -19,19 +19,26 @@ namespace tvg::cli {
 
 /// What a mesh file holds. Each index in `faces` is below vertex_count(), each coordinate is finite.
 struct MeshFile {
-  std::vector<float> positions;   ///< [vertex][xyz], in the file's order
-  std::vector<Face> faces;        ///< [face][corner]; a polygon is a fan around its first corner
-  std::vector<Polygon> polygons;  ///< faces of the file with more than three corners, in their order
-  std::string name;               ///< of the first object (OBJ's o or g), or empty
+  std::vector<float> positions;       ///< [vertex][xyz], in the file's order
+  std::vector<Face> faces;            ///< [face][corner]; a polygon is a fan around its first corner
+  std::vector<Polygon> polygons;      ///< faces of the file with more than three corners, in their order
+  std::string name;                   ///< of the first object (OBJ's o or g), or empty
+  std::vector<Attribute> attributes;  ///< none is animated; `bits` is kBitsOfKind
+  std::vector<Part> parts;
+  std::vector<std::uint32_t> face_parts;    ///< [face], its part; empty where there are no parts
+  std::vector<std::string> material_files;  ///< OBJ's mtllib, as the file names them
+  /// Of PLY: files of textures; each is a material of its own, with the same name.
+  std::vector<std::string> texture_files;
   std::vector<std::uint32_t>
       misplaced;                   ///< vertices without a place (NaN), which no face uses: they are at 0
   std::vector<std::string> notes;  ///< what was left out or put right: "1 face with ... left out"
   /// Where it is set, before the file is read, coordinates are read in double and relative to it.
   std::optional<Origin> origin;
+  bool positions_only = false;    ///< set before the file is read: no attributes, parts and materials
   bool finer_than_float = false;  ///< with an origin: the file has a coordinate that float32 cannot hold
 
   std::size_t vertex_count() const { return positions.size() / 3; }
-  /// Empties it; capacities and the origin stay.
+  /// Empties it; capacities, the origin and positions_only stay.
   void clear();
   /// A coordinate as the positions have it, relative to the origin, which is set.
   float relative(double coordinate, std::size_t axis);
@@ -44,7 +51,7 @@ struct MeshFile {
 void parse_obj(const std::string& file, std::string_view bytes, MeshFile& mesh);
 /// ASCII and both binary byte orders, any properties and elements.
 void parse_ply(const std::string& file, std::string_view bytes, MeshFile& mesh);
-/// OFF with any of the prefixes ST, C, N; the columns they add are skipped.
+/// OFF with any of the prefixes ST, C, N and the columns they add.
 void parse_off(const std::string& file, std::string_view bytes, MeshFile& mesh);
 /// ASCII and binary. The result is not welded: vertex i is corner i, and face f is {3f, 3f + 1, 3f + 2}.
 void parse_stl(const std::string& file, std::string_view bytes, MeshFile& mesh);

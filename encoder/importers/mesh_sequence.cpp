@@ -1,6 +1,7 @@
 #include "encoder/importers/mesh_sequence.hpp"
 
 #include "encoder/importers/import_error.hpp"
+#include "encoder/importers/materials.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -32,17 +33,24 @@ std::string weld_note(const std::string& path, const StlWeld& stl) {
 
 }  // namespace
 
-WeldedMesh read_welded_mesh(const std::string& path, const WeldTolerance& tolerance) {
+WeldedMesh read_welded_mesh(const std::string& path, const SequenceOptions& options) {
   WeldedMesh welded;
   const MeshFormat format = mesh_format(path).value();
   std::string buffer;
+  welded.mesh.positions_only = !options.properties.wanted;
   read_mesh_file(path, format, buffer, welded.mesh);
   welded.notes = notes_on(path, welded.mesh);
   if (format == MeshFormat::kStl) {
-    const StlWeld stl(welded.mesh.positions, tolerance);
+    const StlWeld stl(welded.mesh.positions, options.weld);
     apply_weld(stl.weld(), welded.mesh);
     welded.notes.push_back(weld_note(path, stl));
   }
+  std::vector<std::string> notes;
+  if (options.properties.wanted)
+    welded.data = read_materials(path, welded.mesh, options.properties.embed_textures, welded.notes);
+  welded.properties = StretchProperties(welded.mesh, options.properties);
+  welded.properties.settle(welded.mesh.faces, true, notes);
+  for (const std::string& note : notes) welded.notes.push_back(fmt::format("{}: {}", path, note));
   return welded;
 }
 
@@ -72,6 +80,7 @@ void MeshSequenceSource::begin_stretch() {
     loaded_.reset();
   }
   if (name_.empty()) name_ = current_.name;
+  read_materials_of(file);
   know_mesh();
 }
 
@@ -93,22 +102,29 @@ bool MeshSequenceSource::load_next_mesh() {
   }
 }
 
+/// Whether the mesh that was read is one that was met before, with the same properties.
+bool MeshSequenceSource::is_known(KnownMesh& seen) {
+  if (seen.shows_nothing || seen.mesh.vertex_count != current_.vertex_count()) return false;
+  std::string ignored;
+  return seen.order.difference(current_, seen.file).empty() &&
+         seen.properties.read(current_, seen.mesh.faces, ignored).empty();
+}
+
 /// The mesh that was read is the present one; one that was met before stays as it was.
 void MeshSequenceSource::know_mesh() {
-  const auto same = [this](const std::shared_ptr<const KnownMesh>& seen) {
-    return !seen->shows_nothing && seen->mesh.vertex_count == current_.vertex_count() &&
-           seen->order.difference(current_, seen->file).empty();
-  };
-  const auto seen = std::find_if(seen_.rbegin(), seen_.rend(), same);
+  const auto seen =
+      std::find_if(seen_.rbegin(), seen_.rend(), [this](const auto& mesh) { return is_known(*mesh); });
   if (seen != seen_.rend()) {
     known_ = *seen;
     return;
   }
-  known_ = std::make_shared<const KnownMesh>(
+  known_ = std::make_shared<KnownMesh>(
       KnownMesh{{static_cast<std::uint32_t>(current_.vertex_count()), current_.faces},
                 FaceOrder(current_.faces, current_.polygons),
                 files_[stretch_],
-                false});
+                false,
+                StretchProperties(current_, options_.properties)});
+  look_ahead();
   seen_.push_back(known_);
   if (seen_.size() > kMostMeshesKnown) seen_.pop_front();
 }
@@ -119,7 +135,7 @@ void MeshSequenceSource::begin_empty_stretch(const std::string& what) {
   last_ = place_of_nothing();
   if (last_.empty())
     throw ImportError(ErrorCode::kInvalidInput, what + ", and no other file of the sequence has any");
-  known_ = std::make_shared<const KnownMesh>(KnownMesh{{1, {}}, FaceOrder(), files_[stretch_], true});
+  known_ = std::make_shared<KnownMesh>(KnownMesh{{1, {}}, FaceOrder(), files_[stretch_], true});
 }
 
 /// Empty where no frame shows anything.
@@ -129,6 +145,7 @@ std::vector<float> MeshSequenceSource::place_of_nothing() {
       try {
         load(file);
         if (!options_.origin) options_.origin = current_.origin.value_or(Origin{});
+        read_materials_of(files_[file]);
         place_.assign(current_.positions.begin(), current_.positions.begin() + 3);
       } catch (const EmptyInputError&) {
         continue;
@@ -140,9 +157,20 @@ std::vector<float> MeshSequenceSource::place_of_nothing() {
 
 /// Reads a file, unless it was the last that was read.
 bool MeshSequenceSource::load(std::size_t file) {
-  if (loaded_ == file) return false;
+  // Attributes that were left out of the mesh are not read of its other files, but of one that begins
+  // another.
+  const bool none_left = known_ != nullptr && known_->properties.all_left_out();
+  const bool positions_only = !options_.properties.wanted || (none_left && file != stretch_);
+  if (loaded_ == file && current_.positions_only == positions_only) return false;
   loaded_.reset();
+  if (loaded_ahead_ == file) {
+    std::swap(current_, ahead_);
+    loaded_ahead_.reset();
+    loaded_ = file;
+    return true;
+  }
   current_.origin = options_.origin;
+  current_.positions_only = positions_only;
   read_located_mesh(files_[file], format_, buffer_, current_);
   loaded_ = file;
   return true;
@@ -184,6 +212,7 @@ Metadata MeshSequenceSource::metadata() const {
   if (!name_.empty()) metadata.emplace("name", name_);
   if (options_.origin && !is_zero(*options_.origin))
     metadata.emplace(kOriginKey, origin_text(*options_.origin));
+  if (known_->properties.flat()) metadata.emplace("shading", "flat");
   return metadata;
 }
 
@@ -272,6 +301,7 @@ void MeshSequenceSource::read_positions(const std::string& path, std::span<float
   if (format_ != MeshFormat::kStl) {
     const std::string difference = known_->order.difference(current_, known_->file);
     if (!difference.empty()) fail_changed(path, difference);
+    read_values(path);
   }
   if (!last_.empty()) {
     for (const std::uint32_t vertex : current_.misplaced) {

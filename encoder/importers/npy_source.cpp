@@ -1,14 +1,16 @@
 #include "encoder/importers/npy_source.hpp"
 
+#include "encoder/importers/array_file.hpp"
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
-#include "encoder/importers/input_file.hpp"
 #include "encoder/importers/text_cursor.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,8 +21,8 @@ namespace {
 
 class NpySource final : public FrameSource {
  public:
-  NpySource(const std::string& path, Mesh mesh, Metadata metadata, std::string mesh_file)
-      : file_(path),
+  NpySource(std::unique_ptr<ArrayFile> file, Mesh mesh, Metadata metadata, std::string mesh_file)
+      : file_(std::move(file)),
         mesh_(std::move(mesh)),
         metadata_(std::move(metadata)),
         mesh_file_(std::move(mesh_file)) {
@@ -40,7 +42,7 @@ class NpySource final : public FrameSource {
   Status skip_frames(std::uint64_t count) override {
     try {
       next_ += count;
-      file_.seek(data_offset_ + next_ * frame_size());
+      file_->seek(data_offset_ + next_ * frame_size());
       return {};
     } catch (const ImportError& error) {
       return error.as_value();
@@ -53,7 +55,7 @@ class NpySource final : public FrameSource {
 
  private:
   [[noreturn]] void fail(const std::string& what, ErrorCode code = ErrorCode::kInvalidInput) const {
-    throw ImportError(code, fmt::format("{}: {}", file_.name(), what));
+    throw ImportError(code, fmt::format("{}: {}", file_->name(), what));
   }
   std::uint64_t frame_size() const { return 3 * std::uint64_t{mesh_.vertex_count} * number_size_; }
 
@@ -63,7 +65,7 @@ class NpySource final : public FrameSource {
   bool read(std::span<float> positions);
   float number_at(const char* bytes) const;
 
-  InputFile file_;
+  std::unique_ptr<ArrayFile> file_;
   Mesh mesh_;
   Metadata metadata_;
   std::string mesh_file_;
@@ -91,19 +93,18 @@ void NpySource::read_header() {
   constexpr std::string_view kMagic("\x93NUMPY", 6);
   constexpr std::size_t kLongestHeader = 10000;  // NumPy itself refuses longer ones
   std::array<char, 12> start{};
-  if (!file_.size()) fail("a NumPy array is read of a regular file only");
-  std::size_t got = file_.read(start.data(), 10);
+  std::size_t got = file_->read(start.data(), 10);
   if (std::string_view(start.data(), got).substr(0, 6) != kMagic || got < 10) {
     fail("it does not begin with NumPy's signature");
   }
   const int version = start[6];
   if (version < 1 || version > 3) fail(fmt::format("version {} of NumPy's format is not read", version));
-  if (version > 1) got += file_.read(start.data() + 10, 2);
+  if (version > 1) got += file_->read(start.data() + 10, 2);
   const std::size_t length = version == 1 ? load<std::uint16_t>(start.data() + 8, false)
                                           : load<std::uint32_t>(start.data() + 8, false);
   if (length > kLongestHeader) fail(fmt::format("its header claims {} bytes", length));
   std::string header(length, ' ');
-  if (file_.read(header.data(), length) < length) fail("it ends in its header", ErrorCode::kTruncated);
+  if (file_->read(header.data(), length) < length) fail("it ends in its header", ErrorCode::kTruncated);
   data_offset_ = got + length;
   if (!is_plain_text(std::string_view(header).substr(0, header.find('\n')))) fail("its header is no text");
   take_type(value_of(header, "descr"));
@@ -111,15 +112,15 @@ void NpySource::read_header() {
     fail("it is in Fortran's order: save it in C's order, numpy.ascontiguousarray(a)");
   }
   take_shape(value_of(header, "shape"));
-  const std::uint64_t held = (*file_.size() - std::min(*file_.size(), data_offset_)) / frame_size();
+  const std::uint64_t held = (file_->size() - std::min(file_->size(), data_offset_)) / frame_size();
   const std::uint64_t whole = data_offset_ + std::min(frames_, held + 1) * frame_size();
   if (held < frames_) {
-    fail(fmt::format("it ends at byte {} inside frame {}; its header promises {} frames", *file_.size(), held,
+    fail(fmt::format("it ends at byte {} inside frame {}; its header promises {} frames", file_->size(), held,
                      frames_),
          ErrorCode::kTruncated);
   }
-  if (*file_.size() > whole)
-    fail(fmt::format("{} bytes follow its {} frames", *file_.size() - whole, frames_));
+  if (file_->size() > whole)
+    fail(fmt::format("{} bytes follow its {} frames", file_->size() - whole, frames_));
 }
 
 void NpySource::take_type(std::string_view type) {
@@ -168,7 +169,7 @@ float NpySource::number_at(const char* bytes) const {
 bool NpySource::read(std::span<float> positions) {
   if (next_ == frames_) return false;
   bytes_.resize(frame_size());
-  if (file_.read(bytes_.data(), bytes_.size()) < bytes_.size())
+  if (file_->read(bytes_.data(), bytes_.size()) < bytes_.size())
     fail(fmt::format("it ends inside frame {}", next_), ErrorCode::kTruncated);
   for (std::size_t i = 0; i < positions.size(); ++i)
     positions[i] = number_at(bytes_.data() + i * number_size_);
@@ -179,11 +180,52 @@ bool NpySource::read(std::span<float> positions) {
   return true;
 }
 
+/// Which of several arrays that fit is the positions.
+std::optional<std::size_t> usual_name(const std::vector<std::string>& names) {
+  for (const char* usual : {"vertices", "verts", "positions", "points"}) {
+    const auto found = std::find(names.begin(), names.end(), usual);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::unique_ptr<FrameSource> open_npy(const std::string& path, Mesh mesh, Metadata metadata,
                                       const std::string& mesh_file) {
-  return std::make_unique<NpySource>(path, std::move(mesh), std::move(metadata), mesh_file);
+  return std::make_unique<NpySource>(open_array_file(path), std::move(mesh), std::move(metadata), mesh_file);
+}
+
+std::unique_ptr<FrameSource> open_npz(const std::string& path, const Mesh& mesh, const Metadata& metadata,
+                                      const std::string& mesh_file, const std::string& array) {
+  std::vector<std::string> names, reasons;
+  std::vector<std::unique_ptr<FrameSource>> fitting;
+  for (const NpzEntry& entry : list_npz(path)) {
+    if (!array.empty() && entry.name != array) {
+      reasons.push_back(fmt::format("'{}'", entry.name));
+      continue;
+    }
+    try {
+      fitting.push_back(std::make_unique<NpySource>(open_npz_entry(path, entry), mesh, metadata, mesh_file));
+      names.push_back(entry.name);
+    } catch (const ImportError& error) {
+      if (!array.empty()) throw;
+      reasons.emplace_back(error.what());
+    }
+  }
+  const auto fail = [&](const std::string& what) {
+    throw ImportError(ErrorCode::kInvalidInput, fmt::format("{}: {}", path, what));
+  };
+  if (fitting.empty() && !array.empty())
+    fail(fmt::format("it has no array '{}', but {}", array, fmt::join(reasons, ", ")));
+  if (fitting.empty())
+    fail(fmt::format("none of its arrays has the mesh's positions ({})", fmt::join(reasons, "; ")));
+  if (fitting.size() == 1) return std::move(fitting[0]);
+  const std::optional<std::size_t> usual = usual_name(names);
+  if (!usual)
+    fail(
+        fmt::format("the arrays '{}' may all be positions: choose one by --array", fmt::join(names, "', '")));
+  return std::move(fitting[*usual]);
 }
 
 }  // namespace tvg::cli

@@ -13,4 +13,10 @@ namespace tvg::cli {
 std::unique_ptr<FrameSource> open_npy(const std::string& path, Mesh mesh, Metadata metadata,
                                       const std::string& mesh_file);
 
+/// The same for an array of a .npz file, stored or deflated: that named `array`, or where that is empty the
+/// one whose type and shape fit the mesh, of several the one with a usual name (vertices, verts, positions,
+/// points).
+std::unique_ptr<FrameSource> open_npz(const std::string& path, const Mesh& mesh, const Metadata& metadata,
+                                      const std::string& mesh_file, const std::string& array);
+
 }  // namespace tvg::cli

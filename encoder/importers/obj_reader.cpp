@@ -1,5 +1,7 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/obj_attributes.hpp"
+#include "encoder/importers/part_table.hpp"
 #include "encoder/importers/text_cursor.hpp"
 
 #include <array>
@@ -15,7 +17,7 @@ constexpr std::uint64_t kMaximumVertices = std::numeric_limits<std::uint32_t>::m
 class ObjReader {
  public:
   ObjReader(const std::string& file, std::string_view text, MeshFile& mesh)
-      : file_(file), cursor_(file, text), mesh_(mesh), builder_(mesh) {
+      : file_(file), cursor_(file, text), mesh_(mesh), builder_(mesh), attributes_(mesh) {
     cursor_.expect_whole_lines();
   }
 
@@ -26,9 +28,10 @@ class ObjReader {
         read_vertex();
       } else if (keyword == "f") {
         read_face();
-      } else if ((keyword == "o" || keyword == "g") && mesh_.name.empty()) {
-        const std::string_view name = cursor_.rest_of_line();
-        if (is_plain_text(name)) mesh_.name = name;
+      } else if (keyword == "o" || keyword == "g") {
+        read_name(keyword == "o");
+      } else if (!mesh_.positions_only) {
+        read_property(keyword);
       }
     }
     if (largest_index_ > mesh_.vertex_count()) {
@@ -37,9 +40,38 @@ class ObjReader {
                                     file_, largest_index_line_, largest_index_, mesh_.vertex_count()));
     }
     builder_.finish(file_, " (lines that begin with 'f')");
+    if (mesh_.positions_only) return;
+    attributes_.finish();
+    parts_.give_to(mesh_);
+    if (parts_.had_latin_names()) mesh_.notes.push_back("names that are no UTF-8 are read as Latin-1");
   }
 
  private:
+  void read_name(bool of_object) {
+    const std::string_view name = cursor_.rest_of_line();
+    if (mesh_.name.empty() && is_plain_text(name)) mesh_.name = name;
+    if (of_object) {
+      parts_.set_object(name);
+    } else {
+      parts_.set_group(name);
+    }
+  }
+
+  void read_property(std::string_view keyword) {
+    if (keyword == "vt") {
+      attributes_.read_texcoord(cursor_);
+    } else if (keyword == "vn") {
+      attributes_.read_normal(cursor_);
+    } else if (keyword == "usemtl") {
+      parts_.set_material(cursor_.rest_of_line());
+    } else if (keyword == "s") {
+      const float group = cursor_.number_or_nan();  // NaN: off
+      parts_.set_smoothing(group > 0 ? group : 0);
+    } else if (keyword == "mtllib") {
+      mesh_.material_files.emplace_back(cursor_.rest_of_line());
+    }
+  }
+
   void read_vertex() {
     if (mesh_.vertex_count() == kMaximumVertices) cursor_.fail("more vertices than 32-bit indices can name");
     std::array<float, 3> position{};
@@ -48,10 +80,13 @@ class ObjReader {
       position[axis] = mesh_.origin ? mesh_.relative(cursor_.wide_number(), axis) : cursor_.number();
     }
     builder_.add_vertex(position, [this] { return fmt::format("{}, line {}", file_, cursor_.line()); });
+    if (!mesh_.positions_only) attributes_.read_behind_position(cursor_);
   }
 
   void read_face() {
     builder_.begin_face();
+    attributes_.begin_face();
+    parts_.begin_face(mesh_.faces.size());
     for (;;) {
       cursor_.skip_blanks_and_continuations();
       if (cursor_.at_line_end() || cursor_.peek() == '#') break;
@@ -66,6 +101,7 @@ class ObjReader {
   /// V, V/T, V//N or V/T/N; returns V counted from 0.
   std::uint32_t read_corner() {
     const std::int64_t index = cursor_.integer_prefix();
+    if (!mesh_.positions_only) attributes_.read_corner(cursor_, builder_.corners() + 1);
     for (; !TextCursor::is_delimiter(cursor_.peek()); cursor_.advance()) {
       const char c = cursor_.peek();
       if (c != '/' && c != '-' && (c < '0' || c > '9')) {
@@ -90,6 +126,8 @@ class ObjReader {
   TextCursor cursor_;
   MeshFile& mesh_;
   MeshBuilder builder_;
+  ObjAttributes attributes_;
+  PartTable parts_;
   std::uint64_t largest_index_ = 0;  // counted from 1
   std::size_t largest_index_line_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/off_attributes.hpp"
 #include "encoder/importers/text_cursor.hpp"
 
 #include <algorithm>
@@ -34,6 +35,10 @@ class OffReader {
                                vertices, faces));
     }
     builder_.finish(file_);
+    if (mesh_.positions_only) return;
+    attributes_.finish(mesh_);
+    if (coloured_faces_ > 0)
+      mesh_.notes.push_back(fmt::format("the colours of {} faces are left out", coloured_faces_));
   }
 
  private:
@@ -50,6 +55,7 @@ class OffReader {
       cursor_.fail(fmt::format("'{}' is a variant that is not read: vertices must have three coordinates",
                                is_plain_text(keyword) ? keyword : "(binary)"));
     }
+    attributes_.set_columns(keyword.substr(0, end));
     if (behind.word() == "BINARY") cursor_.fail(kBinary);
     for (std::size_t i = 0; i < keyword.size(); ++i) cursor_.advance();
   }
@@ -74,6 +80,7 @@ class OffReader {
     for (std::size_t axis = 0; axis < 3; ++axis)
       position[axis] = mesh_.origin ? mesh_.relative(cursor_.wide_number(), axis) : cursor_.number();
     builder_.add_vertex(position, [this] { return fmt::format("{}, line {}", file_, cursor_.line()); });
+    if (!mesh_.positions_only) attributes_.read_vertex(cursor_);
     cursor_.next_line();
   }
 
@@ -93,6 +100,7 @@ class OffReader {
       builder_.add_corner(static_cast<std::uint32_t>(index));
     }
     builder_.end_face();
+    if (!cursor_.at_line_end() && cursor_.peek() != '#') ++coloured_faces_;
     cursor_.next_line();
   }
 
@@ -100,6 +108,8 @@ class OffReader {
   TextCursor cursor_;
   MeshFile& mesh_;
   MeshBuilder builder_;
+  OffAttributes attributes_;
+  std::uint64_t coloured_faces_ = 0;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "encoder/importers/frame_range.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
+#include "encoder/importers/properties_source.hpp"
 #include "encoder/importers/quarter_turn.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_source.hpp"
@@ -24,7 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kKnownFormats =
-    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16, .mdd or .npy, sequences are folders or "
+    "meshes are .obj, .ply, .off or .stl, caches are .pc2, .pc16, .mdd, .npy or .npz, sequences are folders "
+    "or "
     "patterns "
     "such as "
     "walk_%04d.obj";
@@ -119,12 +121,18 @@ OpenedSource open_mesh_and_cache(const std::string& mesh_path, const std::string
       (parse_input_pattern(mesh_path) && !fs::exists(mesh_path, ignored))) {
     fail_usage(fmt::format("{} goes with one mesh file, and {} is a sequence", cache, mesh_path));
   }
-  WeldedMesh welded = read_welded_mesh(mesh_path, spec.sequence.weld);
+  WeldedMesh welded = read_welded_mesh(mesh_path, spec.sequence);
   Metadata metadata;
   if (!welded.mesh.name.empty()) metadata.emplace("name", welded.mesh.name);
+  if (welded.properties.flat()) metadata.emplace("shading", "flat");
   Mesh mesh{static_cast<std::uint32_t>(welded.mesh.vertex_count()), std::move(welded.mesh.faces)};
-  auto source =
-      open_cache(cache, std::move(mesh), std::move(metadata), mesh_path, welded.notes, spec.open_ended);
+  CacheOptions options;
+  options.open_ended = spec.open_ended;
+  options.array = spec.array;
+  if (!spec.scene.fps.empty()) options.frame_rate = parse_rate(spec.scene.fps);
+  auto source = open_cache(cache, std::move(mesh), std::move(metadata), mesh_path, welded.notes, options);
+  source = std::make_unique<PropertiesSource>(std::move(source), welded.properties.properties(),
+                                              std::move(welded.data));
   source = turned(std::move(source), spec, cache, mesh_path, welded.mesh.positions, welded.notes);
   const std::optional<std::uint64_t> known = source->frame_count();
   if (!known && !spec.skeleton.empty())

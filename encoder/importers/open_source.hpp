@@ -13,7 +13,7 @@ namespace tvg::cli {
 
 /// What a user names as input.
 struct SourceSpec {
-  /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, PC16, MDD, or "-" for a
+  /// In any order: a mesh file (OBJ, PLY, OFF, STL) and a cache (PC2, PC16, MDD, NPY, NPZ, or "-" for a
   /// cache on standard input), which is found by itself where it lies beside the mesh under its name; or a
   /// sequence of mesh files, as a folder, a pattern ("walk_%04d.obj", "walk_####.obj") or all its files; one
   /// mesh file; or a scene (scene_source.hpp).
@@ -35,6 +35,8 @@ struct SourceSpec {
   /// The axis that is up in a cache, where the mesh has another: "y" or "z"; its positions are turned. None
   /// where empty.
   std::string cache_up = {};
+  /// Of a .npz, the array that is the positions; empty for the one that fits the mesh.
+  std::string array = {};
 };
 
 struct OpenedSource {

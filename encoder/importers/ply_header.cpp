@@ -46,6 +46,7 @@ std::string shown(std::string_view word) {
 // Far more than programs write; each value of a body costs a look at its property.
 constexpr std::size_t kMostElements = 256;
 constexpr std::size_t kMostProperties = 4096;
+constexpr std::size_t kMostTextures = 256;
 
 class HeaderReader {
  public:
@@ -65,7 +66,9 @@ class HeaderReader {
         read_element(words);
       } else if (keyword == "property") {
         read_property(words);
-      } else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty()) {
+      } else if (keyword == "comment") {
+        read_comment(words);
+      } else if (keyword != "obj_info" && !keyword.empty()) {
         fail(fmt::format("'{}' is not a word of a PLY header", shown(keyword)));
       }
     }
@@ -111,6 +114,14 @@ class HeaderReader {
     }
     const std::string_view version = words.word();
     if (version != "1.0") fail(fmt::format("the version is '{}', but only 1.0 is known", shown(version)));
+  }
+
+  /// A program says there what the file's textures are.
+  void read_comment(TextCursor& words) {
+    if (words.word() != "TextureFile") return;
+    const std::string_view name = words.rest_of_line();
+    if (!name.empty() && is_plain_text(name) && header_.textures.size() < kMostTextures)
+      header_.textures.emplace_back(name);
   }
 
   void read_element(TextCursor& words) {

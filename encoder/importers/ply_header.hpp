@@ -33,9 +33,10 @@ struct PlyElement {
 
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
-  std::vector<PlyElement> elements;  ///< in the order of their data
-  std::size_t size = 0;              ///< bytes up to the data
-  std::size_t lines = 0;             ///< lines up to the data
+  std::vector<PlyElement> elements;   ///< in the order of their data
+  std::vector<std::string> textures;  ///< of comments "TextureFile NAME", in their order
+  std::size_t size = 0;               ///< bytes up to the data
+  std::size_t lines = 0;              ///< lines up to the data
 };
 
 /// Reads a PLY header; errors are ImportError with the line.

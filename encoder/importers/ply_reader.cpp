@@ -1,6 +1,7 @@
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/ply_attributes.hpp"
 #include "encoder/importers/ply_header.hpp"
 #include "encoder/importers/text_cursor.hpp"
 
@@ -8,6 +9,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace tvg::cli {
 
@@ -39,6 +43,10 @@ class TextValues {
     return mesh.origin ? mesh.relative(cursor_.wide_number(), axis) : cursor_.number();
   }
   std::int64_t integer(PlyType) { return cursor_.integer(); }
+  double number(PlyType type) {
+    if (cursor_.at_line_end()) cursor_.fail("fewer values than the header promises");
+    return type == PlyType::kFloat32 ? double{cursor_.number_or_nan()} : cursor_.wide_number_or_nan();
+  }
   void skip(PlyType, std::uint64_t count) {
     for (std::uint64_t i = 0; i < count; ++i) {
       if (cursor_.word().empty()) cursor_.fail("fewer values than the header promises");
@@ -76,12 +84,15 @@ class BinaryValues {
   void end_element() {}
   float coordinate(PlyType type, std::size_t axis, MeshFile& mesh) {
     if (type == PlyType::kFloat32 && !mesh.origin) return take<float>();
-    const double value = type == PlyType::kFloat32   ? double{take<float>()}
-                         : type == PlyType::kFloat64 ? take<double>()
-                                                     : static_cast<double>(integer(type));
+    const double value = number(type);
     if (mesh.origin) return mesh.relative(value, axis);
     constexpr double kLargest = std::numeric_limits<float>::max();
     return std::abs(value) > kLargest ? std::numeric_limits<float>::infinity() : static_cast<float>(value);
+  }
+  double number(PlyType type) {
+    return type == PlyType::kFloat32   ? double{take<float>()}
+           : type == PlyType::kFloat64 ? take<double>()
+                                       : static_cast<double>(integer(type));
   }
   std::int64_t integer(PlyType type) {
     switch (type) {
@@ -135,7 +146,7 @@ class BinaryValues {
   std::uint64_t index_ = 0;
 };
 
-/// The list of an element that holds vertices; the number of properties where there is none.
+/// The list of an element that holds vertices; else the number of properties.
 std::size_t indices_property(const PlyElement& element) {
   const std::size_t index = element.find("vertex_indices");
   return index < element.properties.size() ? index : element.find("vertex_index");
@@ -153,6 +164,7 @@ class BodyReader {
       if (!element.properties.empty()) read_element(element);
     }
     builder_.finish(file);
+    finish_properties();
     if (const std::uint64_t trailing = values_.finish(); trailing > 0) {
       mesh_.notes.push_back(fmt::format("{} bytes behind what its header promises left out", trailing));
     }
@@ -160,40 +172,107 @@ class BodyReader {
 
  private:
   void read_element(const PlyElement& element) {
-    const bool is_vertex = element.name == "vertex";
-    const bool is_face = element.name == "face";
-    const bool is_strip = element.name == kStrips;
-    const std::size_t list = is_face || is_strip ? indices_property(element) : element.properties.size();
-    const std::size_t axes[3] = {element.find("x"), element.find("y"), element.find("z")};
+    if (element.name == "vertex") return read_vertices(element);
+    if (element.name == "face") return read_faces(element);
+    const std::size_t list = element.name == kStrips ? indices_property(element) : element.properties.size();
     for (std::uint64_t index = 0; index < element.count; ++index) {
       values_.begin_element(element, index);
-      for (std::size_t p = 0; p < element.properties.size() && !is_vertex; ++p) {
+      for (std::size_t p = 0; p < element.properties.size(); ++p) {
         if (p != list) {
           skip(element.properties[p]);
-        } else if (is_face) {
-          read_face(element.properties[p]);
         } else {
           read_strips(element.properties[p]);
         }
       }
-      if (is_vertex) read_vertex(element, axes);
+      values_.end_element();
+    }
+  }
+
+  void read_vertices(const PlyElement& element) {
+    const std::size_t axes[3] = {element.find("x"), element.find("y"), element.find("z")};
+    if (!mesh_.positions_only) attributes_.emplace(element);
+    for (std::uint64_t index = 0; index < element.count; ++index) {
+      values_.begin_element(element, index);
+      read_vertex(element, axes);
       values_.end_element();
     }
   }
 
   void read_vertex(const PlyElement& element, const std::size_t (&axes)[3]) {
     std::array<float, 3> position{};
+    if (attributes_) attributes_->begin_vertex();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
       std::size_t axis = 0;
       while (axis < 3 && axes[axis] != p) ++axis;
-      if (axis == 3) {
-        skip(property);
-      } else {
+      if (axis < 3) {
         position[axis] = values_.coordinate(property.type, axis, mesh_);
+      } else if (attributes_ && attributes_->wants(p)) {
+        attributes_->set(p, values_.number(property.type));
+      } else {
+        skip(property);
       }
     }
     builder_.add_vertex(position, [this] { return values_.place(); });
+  }
+
+  void read_faces(const PlyElement& element) {
+    const std::size_t list = indices_property(element);
+    const std::size_t none = element.properties.size();
+    const auto find = [&](const char* name, bool is_list) {
+      const std::size_t p = mesh_.positions_only ? none : element.find(name);
+      return p < none && element.properties[p].is_list == is_list ? p : none;
+    };
+    const std::size_t texcoords = find("texcoord", true);
+    const std::size_t texture = header_.textures.empty() ? none : find("texnumber", false);
+    for (std::uint64_t index = 0; index < element.count; ++index) {
+      values_.begin_element(element, index);
+      const std::size_t triangle = mesh_.faces.size();
+      list_.clear();
+      for (std::size_t p = 0; p < none; ++p) {
+        if (p == list) {
+          read_face(element.properties[p]);
+        } else if (p == texcoords) {
+          read_list(element.properties[p]);
+        } else if (p == texture) {
+          texture_ = values_.number(element.properties[p].type);
+        } else {
+          skip(element.properties[p]);
+        }
+      }
+      values_.end_element();
+      if (texcoords < none) texcoords_.add_face(list_, builder_.corners(), triangle, mesh_);
+      if (texture < none) add_texture_of_face();
+    }
+    for (std::size_t p = 0; p < none && !mesh_.positions_only; ++p) {
+      const std::string& name = element.properties[p].name;
+      if (p != list && p != texcoords && p != texture)
+        left_out_.push_back(is_plain_text(name) ? name : "(binary)");
+    }
+  }
+
+  void read_list(const PlyProperty& property) {
+    const std::int64_t length = read_length(property);
+    for (std::int64_t i = 0; i < length; ++i)
+      list_.push_back(static_cast<float>(values_.number(property.type)));
+  }
+
+  /// A face whose number names no texture has the first.
+  void add_texture_of_face() {
+    const bool known = texture_ >= 0 && texture_ < static_cast<double>(header_.textures.size());
+    mesh_.face_parts.resize(mesh_.faces.size(), known ? static_cast<std::uint32_t>(texture_) : 0);
+  }
+
+  void finish_properties() {
+    if (mesh_.positions_only) return;
+    if (attributes_) attributes_->finish(mesh_);
+    texcoords_.finish(mesh_);
+    if (!left_out_.empty())
+      mesh_.notes.push_back(fmt::format("the face properties {} are left out", fmt::join(left_out_, ", ")));
+    if (header_.textures.empty()) return;
+    mesh_.texture_files = header_.textures;
+    for (const std::string& texture : header_.textures) mesh_.parts.push_back({"", "", texture});
+    mesh_.face_parts.resize(mesh_.faces.size(), 0);
   }
 
   std::int64_t read_length(const PlyProperty& property) {
@@ -250,6 +329,11 @@ class BodyReader {
   MeshFile& mesh_;
   MeshBuilder builder_;
   std::uint64_t vertex_count_ = 0;
+  std::optional<PlyAttributes> attributes_;
+  PlyFaceTexcoords texcoords_;
+  std::vector<float> list_;  // of the present face
+  double texture_ = 0;       // of the present face
+  std::vector<std::string> left_out_;
 };
 
 const PlyElement* find_element(const PlyHeader& header, std::string_view name) {

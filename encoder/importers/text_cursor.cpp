@@ -87,6 +87,31 @@ Real TextCursor::real_slowly(const char* begin) {
 template float TextCursor::real<float>();
 template double TextCursor::real<double>();
 
+float TextCursor::number_or_nan() {
+  TextCursor ahead = *this;
+  std::string_view text = ahead.word();
+  if (text.starts_with('+')) text.remove_prefix(1);
+  float value = 0;
+  const auto [after, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc{} && after == text.data() + text.size()) {
+    *this = ahead;
+    return value;
+  }
+  // What is too small for float32 is an error to from_chars().
+  const double wide = wide_number_or_nan();
+  return std::abs(wide) < 1 ? static_cast<float>(wide) : std::numeric_limits<float>::quiet_NaN();
+}
+
+double TextCursor::wide_number_or_nan() {
+  std::string_view text = word();
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0;
+  const auto [after, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && after == text.data() + text.size()
+             ? value
+             : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::int64_t TextCursor::integer_prefix() {
   skip_blanks();
   const char* begin = next_;
@@ -128,13 +153,14 @@ void TextCursor::fail(const std::string& what, ErrorCode code) const {
   if (in_cut_line()) {
     throw ImportError(ErrorCode::kTruncated,
                       fmt::format("{} ends inside line {}, which has no line end: the file is cut ({})",
-                                  file_, line_, what));
+                                  *file_, line_, what));
   }
-  throw ImportError(code, fmt::format("{}, line {}: {}", file_, line_, what));
+  throw ImportError(code, fmt::format("{}, line {}: {}", *file_, line_, what));
 }
 
 void TextCursor::fail_at_end(const std::string& inside) const {
-  throw ImportError(ErrorCode::kTruncated, fmt::format("{} ends at line {} inside {}", file_, line_, inside));
+  throw ImportError(ErrorCode::kTruncated,
+                    fmt::format("{} ends at line {} inside {}", *file_, line_, inside));
 }
 
 std::string_view without_byte_order_mark(const std::string& file, std::string_view bytes) {

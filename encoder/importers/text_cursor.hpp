@@ -15,7 +15,7 @@ class TextCursor {
  public:
   /// `file` is the name for messages. Text and name must outlive the cursor.
   TextCursor(const std::string& file, std::string_view text, std::size_t first_line = 1)
-      : file_(file),
+      : file_(&file),
         begin_(text.data()),
         next_(text.data()),
         end_(text.data() + text.size()),
@@ -57,6 +57,10 @@ class TextCursor {
   float number() { return real<float>(); }
   /// The same in double.
   double wide_number() { return real<double>(); }
+  /// The next word of this line as a number; NaN where it is none, is missing or is too large for float32.
+  float number_or_nan();
+  /// The same for double.
+  double wide_number_or_nan();
   /// The next whole number of this line, which ends at a blank.
   std::int64_t integer();
   /// As integer(), but what follows the digits is left for the caller.
@@ -82,7 +86,7 @@ class TextCursor {
   bool in_cut_line() const;
   [[noreturn]] void fail_number(const char* expected, const char* begin) const;
 
-  const std::string& file_;
+  const std::string* file_;
   const char* begin_;
   const char* next_;
   const char* end_;

@@ -43,8 +43,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   mesh.vertex_count = data[1] + 1U;
   std::vector<std::string> notes;
   try {
-    const auto source =
-        tvg::cli::open_cache(file.path(), mesh, {}, "mesh.obj", notes, (options & kOpenEnded) != 0);
+    const auto source = tvg::cli::open_cache(file.path(), mesh, {}, "mesh.obj", notes,
+                                             {.open_ended = (options & kOpenEnded) != 0});
     if ((options & kSkip) != 0 && !source->skip_frames(source->frame_count().value_or(1) / 2).ok()) return 0;
     read_frames(*source);
     if ((options & kRewind) != 0 && source->rewind()) read_frames(*source);

@@ -88,6 +88,8 @@ struct MeshProperties {
 /// - "extras": JSON, `extras` of a glTF's scene, nodes and meshes.
 /// - "skeleton": JSON, `joints` with `name` and `parent` (an index, or -1); "skeleton/positions": float32,
 ///   least significant byte first, [frame][joint][xyz].
+/// - "times": float64, least significant byte first: when each of the stream's frames is, in seconds, where
+///   frames do not follow each other at an even rate.
 struct NamedData {
   std::string name;  ///< 1 to 1024 bytes, as is_metadata_text()
   std::vector<std::uint8_t> bytes;

@@ -102,7 +102,8 @@ struct Mesh {
 };
 
 /// Key-value pairs of text (see is_metadata_text). Reserved keys: `fps` ("30", "30000/1001"), `name`, `units`
-/// ("m", "cm", ...), `up` ("y", "z").
+/// ("m", "cm", ...), `up` ("y", "z"), `start` (when frame 0 is, in seconds: "0.5"), `shading` ("flat": the
+/// normals are those of the faces).
 using Metadata = std::map<std::string, std::string>;
 
 /// Whether `text` may be a key or a value of metadata: well-formed UTF-8 without U+0000 (format-spec §4.2).

@@ -1,0 +1,13 @@
+#pragma once
+#include "encoder/importers/normals_choice.hpp"
+
+namespace tvg::cli {
+
+/// What is kept of an input beside its positions.
+struct PropertyOptions {
+  bool wanted = true;  ///< false: nothing but positions
+  NormalsChoice normals = NormalsChoice::kAuto;
+  bool embed_textures = false;  ///< the files of textures, not their names only
+};
+
+}  // namespace tvg::cli

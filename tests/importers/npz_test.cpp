@@ -1,0 +1,152 @@
+#include "encoder/importers/open_source.hpp"
+#include "tests/importers/sample_files.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+// Arrays of .npz files: how they are found, stored and deflated.
+namespace tvg::cli {
+namespace {
+
+using namespace testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::string npy(const std::string& type, const std::string& shape, const std::string& values) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }\n";
+  ByteString bytes(false);
+  bytes.text(std::string_view("\x93NUMPY\x01\x00", 8))
+      .add(static_cast<std::uint16_t>(header.size()))
+      .text(header);
+  return bytes.bytes() + values;
+}
+
+struct Entry {
+  std::string name;
+  std::string bytes;
+  bool deflated = false;
+  bool wide = false;  ///< sizes of 64 bits
+};
+
+/// One block of deflate that is stored as it is.
+std::string deflated(const std::string& bytes) {
+  ByteString block(false);
+  block.add(std::uint8_t{1})
+      .add(static_cast<std::uint16_t>(bytes.size()))
+      .add(static_cast<std::uint16_t>(~bytes.size()));
+  return block.bytes() + bytes;
+}
+
+std::string npz(const std::vector<Entry>& entries) {
+  ByteString file(false), directory(false);
+  for (const Entry& entry : entries) {
+    const std::string stored = entry.deflated ? deflated(entry.bytes) : entry.bytes;
+    const auto begin = static_cast<std::uint32_t>(file.bytes().size());
+    const auto method = static_cast<std::uint16_t>(entry.deflated ? 8 : 0);
+    const auto stored_size = static_cast<std::uint32_t>(stored.size());
+    const auto size = static_cast<std::uint32_t>(entry.bytes.size());
+    const auto name_size = static_cast<std::uint16_t>(entry.name.size());
+    file.add(std::uint32_t{0x04034b50})
+        .add(std::uint16_t{20})
+        .add(std::uint16_t{0})
+        .add(method)
+        .add(std::uint32_t{0});
+    file.add(std::uint32_t{0})
+        .add(stored_size)
+        .add(size)
+        .add(name_size)
+        .add(std::uint16_t{3})
+        .text(entry.name)
+        .text("abc");
+    file.text(stored);
+    directory.add(std::uint32_t{0x02014b50})
+        .add(std::uint16_t{20})
+        .add(std::uint16_t{20})
+        .add(std::uint16_t{0})
+        .add(method);
+    directory.add(std::uint32_t{0}).add(std::uint32_t{0});
+    directory.add(entry.wide ? UINT32_MAX : stored_size).add(entry.wide ? UINT32_MAX : size).add(name_size);
+    directory.add(static_cast<std::uint16_t>(entry.wide ? 20 : 0))
+        .add(std::uint16_t{0})
+        .add(std::uint16_t{0});
+    directory.add(std::uint16_t{0}).add(std::uint32_t{0}).add(begin).text(entry.name);
+    if (entry.wide)
+      directory.add(std::uint16_t{1})
+          .add(std::uint16_t{16})
+          .add(std::uint64_t{size})
+          .add(std::uint64_t{stored_size});
+  }
+  const auto count = static_cast<std::uint16_t>(entries.size());
+  ByteString end(false);
+  end.add(std::uint32_t{0x06054b50}).add(std::uint32_t{0}).add(count).add(count);
+  end.add(static_cast<std::uint32_t>(directory.bytes().size()))
+      .add(static_cast<std::uint32_t>(file.bytes().size()));
+  end.add(std::uint16_t{0});
+  return file.bytes() + directory.bytes() + end.bytes();
+}
+
+std::string frames_npy() {
+  ByteString values(false);
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    for (const float value : tetrahedron_positions(frame)) values.add(value);
+  }
+  return npy("<f4", "3, 4, 3", values.bytes());
+}
+
+class Npz : public ::testing::Test {
+ protected:
+  Npz() { folder_.write("a.obj", sample_obj()); }
+  OpenedSource open(const std::string& bytes, const std::string& array = "") const {
+    folder_.write("a.npz", bytes);
+    SourceSpec spec{{folder_.path("a.obj"), folder_.path("a.npz")}};
+    spec.array = array;
+    return open_source(spec);
+  }
+  std::string message(const std::string& bytes, const std::string& array = "") const {
+    return thrown_by([&] { open(bytes, array); }).what();
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(Npz, StoredAndDeflatedArraysAreReadTwice) {
+  const std::string other = npy("<i8", "2", std::string(16, '\0'));
+  for (const bool is_deflated : {false, true}) {
+    for (const bool wide : {false, true}) {
+      const OpenedSource opened =
+          open(npz({{"faces.npy", other}, {"deformed.npy", frames_npy(), is_deflated, wide}}));
+      for (int pass = 0; pass < 2; ++pass) {
+        const Frames frames = read_all(*opened.source);
+        EXPECT_FALSE(frames.error);
+        EXPECT_THAT(frames.frames, ElementsAre(tetrahedron_positions(0), tetrahedron_positions(1),
+                                               tetrahedron_positions(2)));
+        EXPECT_TRUE(opened.source->rewind());
+      }
+      EXPECT_TRUE(opened.source->skip_frames(2).ok());
+      EXPECT_THAT(read_all(*opened.source).frames, ElementsAre(tetrahedron_positions(2)));
+    }
+  }
+}
+
+TEST_F(Npz, TheArrayIsChosenByItsShapeOrName) {
+  const std::string two = npz({{"rest.npy", frames_npy()}, {"b.npy", frames_npy()}});
+  EXPECT_THAT(message(two), HasSubstr("'rest', 'b' may all be positions: choose one by --array"));
+  EXPECT_EQ(open(two, "b").source->frame_count(), 3U);
+  EXPECT_THAT(message(two, "c"), HasSubstr("it has no array 'c', but 'rest', 'b'"));
+  EXPECT_EQ(open(npz({{"rest.npy", frames_npy()}, {"verts.npy", frames_npy()}})).source->frame_count(), 3U);
+  EXPECT_THAT(message(npz({{"x.npy", npy("<i8", "2", std::string(16, '\0'))}})),
+              HasSubstr("none of its arrays"));
+  EXPECT_THAT(message(npz({{"x.txt", "text"}})), HasSubstr("it holds no arrays"));
+}
+
+TEST_F(Npz, DamageIsAnError) {
+  const std::string good = npz({{"verts.npy", frames_npy(), true}});
+  EXPECT_THAT(message("PK\x03\x04" + std::string(100, 'x')), HasSubstr("no archive of arrays"));
+  for (std::size_t length = 1; length < good.size(); ++length)
+    EXPECT_NE(message(good.substr(0, length)), "") << length;
+  std::string odd = good;
+  odd[good.find("verts.npy") + 12] = 7;  // the first block's kind
+  EXPECT_THAT(message(odd), HasSubstr("compressed bytes are damaged"));
+}
+
+}  // namespace
+}  // namespace tvg::cli
