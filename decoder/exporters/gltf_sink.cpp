@@ -161,6 +161,7 @@ void GltfSink::add_sizes(json& animation, std::size_t node, const GltfPlacedMesh
 /// Each frame has its own target at weight 1 and all others at 0.
 void GltfSink::add_weights(json& animation, std::size_t node, const GltfPlacedMesh& placed) {
   std::vector<double> times;
+  times.reserve(placed.frames);
   for (std::uint64_t i = 0; i < placed.frames; ++i) times.push_back(time_of(placed.first_frame + i));
   const std::size_t input = write_times(times);
   const std::uint64_t targets = placed.frames - 1;
