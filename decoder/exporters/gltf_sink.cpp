@@ -39,13 +39,13 @@ void refuse_foreign_buffer(const std::string& gltf, const std::string& buffer) {
 
 /// How many metres a unit of the metadata is.
 double metres_of(const Metadata& metadata) {
-  static const std::map<std::string, double> kUnits = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
-                                                       {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048},
-                                                       {"dm", 0.1},  {"um", 1e-6},   {"yd", 0.9144}};
+  static const std::map<std::string, double> units_known = {{"m", 1},     {"cm", 0.01},   {"mm", 0.001},
+                                                            {"km", 1000}, {"in", 0.0254}, {"ft", 0.3048},
+                                                            {"dm", 0.1},  {"um", 1e-6},   {"yd", 0.9144}};
   const auto entry = metadata.find("units");
   if (entry == metadata.end()) return 1;
-  const auto unit = kUnits.find(entry->second);
-  return unit == kUnits.end() ? 1 : unit->second;
+  const auto unit = units_known.find(entry->second);
+  return unit == units_known.end() ? 1 : unit->second;
 }
 
 bool is_z_up(const Metadata& metadata) {
@@ -118,6 +118,7 @@ double GltfSink::time_of(std::uint64_t frame) const {
 
 std::size_t GltfSink::write_times(const std::vector<double>& times) {
   std::vector<float> seconds;
+  seconds.reserve(times.size());
   for (const double time : times) seconds.push_back(static_cast<float>(time));
   buffer_.begin_view(GltfTarget::kNone);
   const std::size_t accessor = buffer_.add_accessor(
@@ -160,6 +161,7 @@ void GltfSink::add_sizes(json& animation, std::size_t node, const GltfPlacedMesh
 /// Each frame has its own target at weight 1 and all others at 0.
 void GltfSink::add_weights(json& animation, std::size_t node, const GltfPlacedMesh& placed) {
   std::vector<double> times;
+  times.reserve(placed.frames);
   for (std::uint64_t i = 0; i < placed.frames; ++i) times.push_back(time_of(placed.first_frame + i));
   const std::size_t input = write_times(times);
   const std::uint64_t targets = placed.frames - 1;

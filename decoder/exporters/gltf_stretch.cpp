@@ -26,9 +26,12 @@ void store_short(std::uint8_t* bytes, std::int32_t value) {
 
 }  // namespace
 
-GltfStretch::GltfStretch(const Mesh& mesh, const MeshProperties& properties, std::uint64_t first_frame,
+GltfStretch::GltfStretch(Mesh mesh, MeshProperties properties, std::uint64_t first_frame,
                          std::unique_ptr<AtomicFile> scratch)
-    : mesh_(mesh), properties_(properties), first_frame_(first_frame), scratch_(std::move(scratch)) {
+    : mesh_(std::move(mesh)),
+      properties_(std::move(properties)),
+      first_frame_(first_frame),
+      scratch_(std::move(scratch)) {
   Result<RenderView> view = RenderView::of(mesh_, properties_);
   if (!view) throw ToolError(ExitStatus::kOther, "glTF: " + view.error().message);
   view_ = std::move(*view);

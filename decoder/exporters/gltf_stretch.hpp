@@ -30,7 +30,7 @@ class GltfStretch {
  public:
   /// `scratch`: where positions that are to be quantized wait for their bounds; null for float32 positions.
   /// Throws ToolError where the mesh has too many vertices for an index buffer.
-  GltfStretch(const Mesh& mesh, const MeshProperties& properties, std::uint64_t first_frame,
+  GltfStretch(Mesh mesh, MeshProperties properties, std::uint64_t first_frame,
               std::unique_ptr<AtomicFile> scratch);
   ~GltfStretch();
 

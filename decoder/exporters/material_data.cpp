@@ -40,16 +40,16 @@ std::optional<json> parse_json(std::span<const std::uint8_t> bytes) {
 }
 
 const json& member(const json& value, const char* name) {
-  static const json kNull;
-  if (!value.is_object()) return kNull;
+  static const json null_value;
+  if (!value.is_object()) return null_value;
   const auto found = value.find(name);
-  return found == value.end() ? kNull : *found;
+  return found == value.end() ? null_value : *found;
 }
 
 const json& array_of(const json& value, const char* name) {
-  static const json kEmpty = json::array();
+  static const json empty_array = json::array();
   const json& array = member(value, name);
-  return array.is_array() ? array : kEmpty;
+  return array.is_array() ? array : empty_array;
 }
 
 std::string text_of(const json& value, const char* name) {

@@ -32,10 +32,10 @@ std::string lower_case(std::string text) {
 /// The suffix for an image's file: the one that it has, where that is an image's and what it is. "" for what
 /// is no image.
 std::string image_suffix(const std::string& suffix, const std::string& type) {
-  static const std::set<std::string> kOthers = {".bmp", ".dds", ".exr", ".gif", ".hdr", ".pcx", ".pgm",
-                                                ".png", ".ppm", ".psd", ".tga", ".tif", ".tiff"};
+  static const std::set<std::string> others = {".bmp", ".dds", ".exr", ".gif", ".hdr", ".pcx", ".pgm",
+                                               ".png", ".ppm", ".psd", ".tga", ".tif", ".tiff"};
   const std::string lower = lower_case(suffix);
-  if (type.empty()) return kOthers.contains(lower) ? suffix : std::string();
+  if (type.empty()) return others.contains(lower) ? suffix : std::string();
   const std::string usual =
       type == "image/jpeg" ? std::string(".jpg") : fmt::format(".{}", type.substr(type.find('/') + 1));
   return lower == usual || (type == "image/jpeg" && lower == ".jpeg") ? suffix : usual;

@@ -66,6 +66,7 @@ class PlyWriter {
         attribute.name.empty() ? kKinds[static_cast<std::size_t>(attribute.kind)] : attribute.name;
     if (attribute.components == 1) return {stem};
     std::vector<std::string> names;
+    names.reserve(attribute.components);
     for (std::size_t i = 0; i < attribute.components; ++i) names.push_back(fmt::format("{}_{}", stem, i));
     return names;
   }
