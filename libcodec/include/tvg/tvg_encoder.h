@@ -27,8 +27,6 @@ extern "C" {
    It must not call the object that calls it. */
 typedef int (*tvg_sink)(void* user, const void* bytes, size_t size);
 
-typedef struct tvg_encoder tvg_encoder;
-
 typedef enum tvg_predictor {
   TVG_PREDICTOR_SPACE = 0,
   TVG_PREDICTOR_TIME = 1,
