@@ -17,11 +17,11 @@ using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 using ::testing::UnorderedElementsAre;
 
-/// Two triangles of a quad, cut at vertex 1 in texture coordinates.
+/// Two triangles of a quad, cut along their common edge in texture coordinates.
 constexpr std::uint32_t kFaces[2][3] = {{0, 1, 3}, {0, 3, 2}};
 constexpr float kPositions[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-constexpr float kUv[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0.5f, 0}, {0, 1}};
-constexpr std::uint32_t kUvCorners[6] = {0, 1, 2, 3, 2, 4};
+constexpr float kUv[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0.5f, 0}, {0, 1}, {1, 0.75f}};
+constexpr std::uint32_t kUvCorners[6] = {0, 1, 2, 3, 5, 4};
 constexpr float kHeat[4] = {-2.5f, 0, 1e-9f, 7e8f};
 
 tvg_attribute uv() {
@@ -33,7 +33,7 @@ tvg_attribute uv() {
   attribute.components = 2;
   attribute.bits = 12;
   attribute.values = kUv;
-  attribute.value_count = 5;
+  attribute.value_count = 6;
   attribute.corners = kUvCorners;
   attribute.corner_count = 6;
   return attribute;
@@ -147,15 +147,15 @@ TEST(CProperties, CornersAndPartsFollowTheFaces) {
   EXPECT_EQ(decoder.copy_face_parts(parts.data(), 1), TVG_ERROR_INVALID_ARGUMENT);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(of_vertices[i], mesh.faces[i]);
-    // The face that has vertex 1 is the first; vertex 0 has another value in the other.
+    // The face that has vertex 1 is the first; vertices 0 and 3 have other values in the other.
     const std::uint32_t* const face = mesh.faces + i / 3 * 3;
     const bool is_first = face[0] == 1 || face[1] == 1 || face[2] == 1;
     EXPECT_EQ(parts[i / 3], is_first ? 1u : 0u);
     std::size_t original = 0;
     while (kFaces[is_first ? 0 : 1][original] != mesh.faces[i]) ++original;
     const float* const expected = kUv[kUvCorners[(is_first ? 0 : 3) + original]];
-    EXPECT_NEAR(values[2 * corners[i]], expected[0], 1.0 / 8192);
-    EXPECT_NEAR(values[2 * corners[i] + 1], expected[1], 1.0 / 8192);
+    EXPECT_NEAR(values[2 * corners[i]], expected[0], 1.0 / 8000);
+    EXPECT_NEAR(values[2 * corners[i] + 1], expected[1], 1.0 / 8000);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(CProperties, TheViewHasOneIndexForAll) {
   EXPECT_FALSE(decoder.view_range(0)) << "before the view is made";
   const std::optional<tvg_view_info> view = decoder.view();
   ASSERT_TRUE(view);
-  EXPECT_EQ(view->vertex_count, 5u);
+  EXPECT_EQ(view->vertex_count, 6u);
   EXPECT_EQ(view->index_count, 6u);
   ASSERT_EQ(view->range_count, 2u);
   EXPECT_EQ(decoder.view_range(0)->first_index, 0u);
@@ -173,30 +173,31 @@ TEST(CProperties, TheViewHasOneIndexForAll) {
   EXPECT_EQ(decoder.view_range(1)->index_count, 3u);
   EXPECT_FALSE(decoder.view_range(2));
   EXPECT_EQ(view->source_vertices[4], 0u);
-  std::array<std::uint32_t, 5> chosen{};
-  ASSERT_EQ(tvg_decoder_copy_view_values(decoder.get(), 1, chosen.data(), 5), TVG_OK);
-  EXPECT_THAT(chosen, ElementsAre(0, 1, 2, 3, 0));
+  EXPECT_EQ(view->source_vertices[5], 3u);
+  std::array<std::uint32_t, 6> chosen{};
+  ASSERT_EQ(tvg_decoder_copy_view_values(decoder.get(), 1, chosen.data(), 6), TVG_OK);
+  EXPECT_THAT(chosen, ElementsAre(0, 1, 2, 3, 0, 3));
   // The first part is the face without vertex 1.
   const std::vector<std::uint32_t> corners = {view->source_vertices[view->indices[0]],
                                               view->source_vertices[view->indices[1]],
                                               view->source_vertices[view->indices[2]]};
   EXPECT_THAT(corners, UnorderedElementsAre(0, 3, 2));
 
-  std::array<float, 15> positions{}, normals{};
-  EXPECT_EQ(decoder.copy_view_positions(positions.data(), 15), TVG_ERROR_WRONG_STATE);
+  std::array<float, 18> positions{}, normals{};
+  EXPECT_EQ(decoder.copy_view_positions(positions.data(), 18), TVG_ERROR_WRONG_STATE);
   ASSERT_TRUE(poll_to(decoder, TVG_EVENT_FRAME));
-  ASSERT_EQ(decoder.copy_view_positions(positions.data(), 15), TVG_OK);
-  ASSERT_EQ(decoder.compute_view_normals(normals.data(), 15), TVG_OK);
-  EXPECT_EQ(decoder.copy_view_positions(positions.data(), 14), TVG_ERROR_INVALID_ARGUMENT);
-  for (std::size_t v = 0; v < 5; ++v) {
+  ASSERT_EQ(decoder.copy_view_positions(positions.data(), 18), TVG_OK);
+  ASSERT_EQ(decoder.compute_view_normals(normals.data(), 18), TVG_OK);
+  EXPECT_EQ(decoder.copy_view_positions(positions.data(), 17), TVG_ERROR_INVALID_ARGUMENT);
+  for (std::size_t v = 0; v < 6; ++v) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       EXPECT_NEAR(positions[3 * v + axis], kPositions[view->source_vertices[v]][axis], 1.0 / 2048);
     EXPECT_EQ(normals[3 * v + 2], 1);
   }
-  std::array<float, 5> warmth{};
-  ASSERT_EQ(decoder.copy_view_attribute(1, warmth.data(), 5), TVG_OK);
-  EXPECT_THAT(warmth, ElementsAre(kHeat[0], kHeat[1], kHeat[2], kHeat[3], kHeat[0]));
-  EXPECT_EQ(decoder.copy_view_attribute(2, warmth.data(), 5), TVG_ERROR_INVALID_ARGUMENT);
+  std::array<float, 6> warmth{};
+  ASSERT_EQ(decoder.copy_view_attribute(1, warmth.data(), 6), TVG_OK);
+  EXPECT_THAT(warmth, ElementsAre(kHeat[0], kHeat[1], kHeat[2], kHeat[3], kHeat[0], kHeat[3]));
+  EXPECT_EQ(decoder.copy_view_attribute(2, warmth.data(), 6), TVG_ERROR_INVALID_ARGUMENT);
 }
 
 TEST(CProperties, ABareMeshHasNoneAndAViewAllTheSame) {

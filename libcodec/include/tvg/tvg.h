@@ -101,6 +101,7 @@ typedef enum tvg_event {
 } tvg_event;
 
 typedef struct tvg_decoder tvg_decoder;
+typedef struct tvg_encoder tvg_encoder; /* tvg_encoder.h */
 
 /* What a stream may ask for. A stream that declares more is refused before anything is allocated by it. */
 typedef struct tvg_limits {

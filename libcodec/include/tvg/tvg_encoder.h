@@ -27,8 +27,6 @@ extern "C" {
    It must not call the object that calls it. */
 typedef int (*tvg_sink)(void* user, const void* bytes, size_t size);
 
-typedef struct tvg_encoder tvg_encoder;
-
 typedef enum tvg_predictor {
   TVG_PREDICTOR_SPACE = 0,
   TVG_PREDICTOR_TIME = 1,
@@ -69,12 +67,11 @@ typedef struct tvg_encoder_options {
                              predicts from; 5 unless set, or 0 */
   double max_error; /* instead of bits and step: what no coordinate may be off by more, in the mesh's units,
                        but for the rounding of decoded positions to float32; 0 unless set: none */
-  uint32_t
-      texcoord_bits; /* of each component, for attributes that do not say how many; 12 unless set, or 0; */
-  uint32_t
-      normal_bits; /* TVG_EXACT_BITS: exact. Of each of a normal's two coordinates; 10 unless set, or 0 */
-  uint32_t colour_bits;        /* 8 unless set, or 0 */
-  uint32_t generic_bits;       /* TVG_EXACT_BITS unless set, or 0 */
+  /* Of attributes that do not say how many bits they have; TVG_EXACT_BITS: exact. 0 is what is usual. */
+  uint32_t texcoord_bits;      /* of each component; 12 unless set */
+  uint32_t normal_bits;        /* of each of the two coordinates of a normal; 10 unless set */
+  uint32_t colour_bits;        /* of each component; 8 unless set */
+  uint32_t generic_bits;       /* of each component; TVG_EXACT_BITS unless set */
   uint32_t max_property_bytes; /* what attributes, parts and polygons of the meshes to come may take; 0 unless
                                   set: as much as those of the first mesh */
 } tvg_encoder_options;
