@@ -1,5 +1,7 @@
 #include "encoder/importers/assimp_materials.hpp"
 
+#include "encoder/importers/gltf_uri.hpp"
+#include "encoder/importers/import_error.hpp"
 #include "encoder/importers/scene_data.hpp"
 
 #include <algorithm>
@@ -18,8 +20,9 @@ using Json = nlohmann::json;
 
 class MaterialWriter {
  public:
-  MaterialWriter(const std::string& path, const aiScene& scene, std::vector<std::string>& notes)
-      : path_(path), scene_(scene), notes_(notes) {}
+  MaterialWriter(const std::string& path, const aiScene& scene, bool embed_textures,
+                 std::vector<std::string>& notes)
+      : path_(path), scene_(scene), embed_(embed_textures), notes_(notes) {}
 
   std::vector<NamedData> write(const std::vector<std::string>& names) {
     Json materials = Json::array();
@@ -103,7 +106,7 @@ class MaterialWriter {
 
   Json image(const std::string& file) {
     const aiTexture* const embedded = scene_.GetEmbeddedTexture(file.c_str());
-    if (embedded == nullptr) return {{"uri", file}};
+    if (embedded == nullptr) return image_beside(file);
     const std::string name = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : file;
     std::optional<std::string> data;
     if (embedded->mHeight == 0 && embedded->pcData != nullptr) {
@@ -118,8 +121,21 @@ class MaterialWriter {
     return {{"name", name}};
   }
 
+  Json image_beside(const std::string& file) {
+    Json image = {{"uri", file}};
+    if (!embed_) return image;
+    try {
+      const std::string bytes = read_beside(path_, file);
+      if (const auto data = images_.add(file, {bytes.begin(), bytes.end()})) image["extras"]["data"] = *data;
+    } catch (const ImportError& error) {
+      notes_.push_back(fmt::format("{}: the picture is left out", error.what()));
+    }
+    return image;
+  }
+
   const std::string& path_;
   const aiScene& scene_;
+  bool embed_;
   std::vector<std::string>& notes_;
   std::map<std::string, std::size_t> files_;  // number of the texture and its image
   Json textures_ = Json::array();
@@ -142,9 +158,9 @@ std::vector<std::string> name_assimp_materials(const aiScene& scene) {
 }
 
 std::vector<NamedData> read_assimp_data(const std::string& path, const aiScene& scene,
-                                        const std::vector<std::string>& names,
+                                        const std::vector<std::string>& names, bool embed_textures,
                                         std::vector<std::string>& notes) {
-  return MaterialWriter(path, scene, notes).write(names);
+  return MaterialWriter(path, scene, embed_textures, notes).write(names);
 }
 
 }  // namespace tvg::cli

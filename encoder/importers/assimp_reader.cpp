@@ -63,8 +63,8 @@ class AssimpReader final : public SceneReader {
   AssimpReader(const std::string& path, std::optional<std::uint32_t> keyframe);
 
   std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const override;
-  std::vector<NamedData> read_data(std::vector<std::string>& notes) const override {
-    return read_assimp_data(scene_.path, *import_, scene_.material_names, notes);
+  std::vector<NamedData> read_data(bool embed_textures, std::vector<std::string>& notes) const override {
+    return read_assimp_data(scene_.path, *import_, scene_.material_names, embed_textures, notes);
   }
   Clip read_clip(std::size_t clip, std::vector<std::string>& notes) const override {
     return read_assimp_clip(scene_, names_, *import_->mAnimations[clip], notes);

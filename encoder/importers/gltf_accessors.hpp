@@ -36,6 +36,8 @@ class GltfAccessors {
   std::vector<double> read(int index, std::size_t width, const std::string& what, bool normalized = false);
   /// The bytes of a view, decompressed, as GltfBuffers has them.
   std::span<const unsigned char> view(int index) { return buffers_.view(index); }
+  /// The bytes of a file that a URI names. Throws ImportError.
+  std::string file(const std::string& uri) const { return buffers_.file(uri); }
   /// Bytes of buffers and views that have been used, and of the binary chunk.
   std::uint64_t bytes() const { return bytes_ + buffers_.size(); }
   /// Unsigned integers, [element][component].

@@ -20,8 +20,8 @@ std::string text_of(const Json& object, const char* name) {
 class DataReader {
  public:
   DataReader(const std::string& path, const GltfDocument& document, GltfAccessors& accessors,
-             std::vector<std::string>& notes)
-      : path_(path), document_(document), accessors_(accessors), notes_(notes) {}
+             bool embed_textures, std::vector<std::string>& notes)
+      : path_(path), document_(document), accessors_(accessors), embed_(embed_textures), notes_(notes) {}
 
   std::vector<NamedData> read() {
     if (!document_.materials.contains("materials") || document_.materials["materials"].empty()) {
@@ -57,15 +57,21 @@ class DataReader {
   void take_image(std::size_t index, Json& image) {
     const std::string uri = text_of(image, "uri");
     const bool is_embedded = uri.starts_with("data:");
-    if (!is_embedded && !image.contains("bufferView")) return;
+    const bool is_file = !is_embedded && !uri.empty();
+    if (is_file ? !embed_ : !is_embedded && !image.contains("bufferView")) return;
     const std::string what = fmt::format("image {}", index);
     std::optional<std::string> name;
     try {
-      name = is_embedded ? read_uri(what, image, uri) : read_view(what, image);
+      if (is_file) {
+        const std::string bytes = accessors_.file(uri);
+        name = add_image(what, image, {bytes.begin(), bytes.end()});
+      } else {
+        name = is_embedded ? read_uri(what, image, uri) : read_view(what, image);
+      }
     } catch (const ImportError& error) {
       notes_.push_back(fmt::format("{}: {} is left out", error.what(), what));
     }
-    image.erase(is_embedded ? "uri" : "bufferView");
+    if (!is_file) image.erase(is_embedded ? "uri" : "bufferView");
     if (!name) return;
     if (!image["extras"].is_object()) image["extras"] = Json::object();
     image["extras"]["data"] = *name;
@@ -111,6 +117,7 @@ class DataReader {
   const std::string& path_;
   const GltfDocument& document_;
   GltfAccessors& accessors_;
+  bool embed_;
   std::vector<std::string>& notes_;
   SceneImages images_;
   std::map<int, std::string> of_view_;  // name of the data
@@ -133,8 +140,9 @@ std::vector<std::string> name_gltf_materials(GltfDocument& document) {
 }
 
 std::vector<NamedData> read_gltf_data(const std::string& path, const GltfDocument& document,
-                                      GltfAccessors& accessors, std::vector<std::string>& notes) {
-  return DataReader(path, document, accessors, notes).read();
+                                      GltfAccessors& accessors, bool embed_textures,
+                                      std::vector<std::string>& notes) {
+  return DataReader(path, document, accessors, embed_textures, notes).read();
 }
 
 }  // namespace tvg::cli

@@ -49,8 +49,8 @@ class GltfReader final : public SceneReader {
     return read_gltf_clip(scene_, document_, nodes_, clip, *accessors_);
   }
 
-  std::vector<NamedData> read_data(std::vector<std::string>& notes) const override {
-    return read_gltf_data(scene_.path, document_, *accessors_, notes);
+  std::vector<NamedData> read_data(bool embed_textures, std::vector<std::string>& notes) const override {
+    return read_gltf_data(scene_.path, document_, *accessors_, embed_textures, notes);
   }
 
  private:

@@ -47,7 +47,7 @@ Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const Scene
                        std::vector<std::string>& notes) {
   const std::unique_ptr<SceneReader> reader = read_scene(path, frame);
   const SceneNodes& nodes = reader->scene().nodes;
-  const bool with_properties = frame == 0 && options.with_properties;
+  const bool with_properties = frame == 0 && options.properties.wanted;
   Keyframe keyframe{gather_meshes(*reader, {}, options.meshes, with_properties, notes), {}};
   std::vector<Transform> global, scratch;
   nodes.to_scene_space(nodes.rest_pose(), global);
@@ -59,7 +59,7 @@ Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const Scene
   }
   if (with_properties) {
     place_normals(keyframe.mesh, global);
-    keyframe.data = reader->read_data(notes);
+    keyframe.data = reader->read_data(options.properties.embed_textures, notes);
   }
   return keyframe;
 }
@@ -89,7 +89,10 @@ class KeyframeSource final : public FrameSource {
   const MeshProperties& properties() const override { return properties_; }
   std::span<const NamedData> data() const override { return data_; }
   Metadata metadata() const override {
-    return options_.fps.empty() ? Metadata() : Metadata{{"fps", options_.fps}};
+    Metadata metadata;
+    if (!options_.fps.empty()) metadata.emplace("fps", options_.fps);
+    if (is_flat_) metadata.emplace("shading", "flat");
+    return metadata;
   }
   std::optional<std::uint64_t> frame_count() const override { return frames_; }
   Result<bool> read_frame(std::span<float> positions) override;
@@ -143,8 +146,9 @@ class KeyframeSource final : public FrameSource {
     place(first.positions, positions);
     for (Attribute& attribute : properties_.attributes)
       attribute = with_joined_vertices(attribute, faces_, vertex_of_, vertex_count_);
+    set_bits(properties_, options_.properties);
     std::vector<std::string> found;
-    choose_normals(mesh_, properties_, positions, frames_ > 1, options_.normals, found);
+    is_flat_ = choose_normals(mesh_, properties_, positions, frames_ > 1, options_.properties.normals, found);
     for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", path_, note));
   }
 
@@ -164,6 +168,7 @@ class KeyframeSource final : public FrameSource {
   std::size_t parts_ = 0;
   Mesh mesh_;
   MeshProperties properties_;
+  bool is_flat_ = false;
   std::vector<NamedData> data_;
   std::uint64_t next_ = 0;
 };

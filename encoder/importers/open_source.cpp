@@ -219,6 +219,7 @@ OpenedSource open_scene_alone(const SourceSpec& spec, const std::string& path) {
   }
   SceneOptions options = spec.scene;
   options.frames = spec.frames;
+  options.properties = spec.sequence.properties;
   OpenedScene opened = open_scene(path, options);
   if (!spec.frames) return {std::move(opened.source), std::move(opened.notes)};
   check_frame_range(*spec.frames, opened.source->frame_count().value(), path);

@@ -1,5 +1,7 @@
 #include "encoder/importers/scene_normals.hpp"
 
+#include "encoder/importers/normal_shading.hpp"
+
 #include <algorithm>
 
 namespace tvg::cli {
@@ -17,21 +19,29 @@ bool is_moved(const SceneMesh& mesh, const SceneNodes& nodes, const Clip& clip) 
                      [&moves](const Carrier& carrier) { return moves[carrier.node] != 0; });
 }
 
-void choose_normals(const Mesh& mesh, MeshProperties& properties, std::span<const float> positions,
+bool choose_normals(const Mesh& mesh, MeshProperties& properties, std::span<const float> positions,
                     bool moves, NormalsChoice choice, std::vector<std::string>& notes) {
-  if (choice == NormalsChoice::kKeep) return;
-  bool any_lost = false;
+  if (choice == NormalsChoice::kKeep) return false;
+  bool is_flat = false;
+  const char* note = nullptr;
   std::erase_if(properties.attributes, [&](const Attribute& attribute) {
     if (attribute.kind != AttributeKind::kNormal) return false;
-    if (choice == NormalsChoice::kDrop || follow_from_faces(mesh, positions, attribute)) return true;
-    any_lost = any_lost || moves;
-    return moves;
+    if (choice == NormalsChoice::kDrop) return true;
+    const auto shading = find_shading(mesh.faces, properties.polygons, positions, attribute);
+    is_flat = shading == NormalShading::kFlat;
+    if (shading == NormalShading::kSmooth) {
+      note = "its normals are left out: they are what the faces give, shaded smoothly";
+    } else if (is_flat) {
+      note = "its normals are left out: they are those of the faces, shaded flat";
+    } else if (moves) {
+      note =
+          "its normals are left out: they are those of one pose, and the mesh moves (--normals keep keeps "
+          "them)";
+    }
+    return shading || moves;
   });
-  if (any_lost) {
-    notes.emplace_back(
-        "its normals are left to the player, since the mesh moves: hard edges become smooth. `--normals "
-        "keep` keeps those of the first frame");
-  }
+  if (note != nullptr) notes.emplace_back(note);
+  return is_flat;
 }
 
 }  // namespace tvg::cli

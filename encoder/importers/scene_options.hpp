@@ -1,5 +1,5 @@
 #pragma once
-#include "encoder/importers/normals_choice.hpp"
+#include "encoder/importers/property_options.hpp"
 
 #include <optional>
 #include <string>
@@ -17,9 +17,8 @@ struct SceneOptions {
   std::vector<std::string> meshes = {};
   /// Samples per second ("25", "30000/1001"); 30 where empty.
   std::string fps = {};
-  /// Whether attributes, parts and data such as materials are taken, or positions alone.
-  bool with_properties = true;
-  NormalsChoice normals = NormalsChoice::kAuto;
+  /// What is kept beside positions; open_source() takes what its sequences do.
+  PropertyOptions properties = {};
   /// Whether the skeleton and where its joints are in each frame go with the data.
   bool skeleton_data = false;
   /// The frames that are used, of which the skeleton's data are then; all where absent.

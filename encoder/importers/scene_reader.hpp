@@ -89,8 +89,9 @@ class SceneReader {
   virtual std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const = 0;
   /// A clip, finished, and in `notes` what is lost of it. Throws ImportError (kInvalidInput).
   virtual Clip read_clip(std::size_t clip, std::vector<std::string>& notes) const = 0;
-  /// What NamedData calls "materials", "image/..." and "extras", and in `notes` what is left out of them.
-  virtual std::vector<NamedData> read_data(std::vector<std::string>& notes) const = 0;
+  /// What NamedData calls "materials", "image/..." and "extras", with `embed_textures` the files of textures
+  /// too, and in `notes` what is left out of them.
+  virtual std::vector<NamedData> read_data(bool embed_textures, std::vector<std::string>& notes) const = 0;
 
  protected:
   Scene scene_;

@@ -3,6 +3,7 @@
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/keyframe_source.hpp"
+#include "encoder/importers/scene_attributes.hpp"
 #include "encoder/importers/scene_choice.hpp"
 #include "encoder/importers/scene_normals.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
@@ -116,18 +117,20 @@ void SceneSource::settle(const SceneOptions& options, const std::string& rate, s
     FramePositions positions(3 * mesh_.positions.size());
     // A first frame that is refused is told when it is read.
     if (read_frame(positions)) {
-      choose_normals(mesh_.mesh, mesh_.properties, positions, is_moved(mesh_, nodes_, clip_), options.normals,
-                     found);
+      const bool is_flat = choose_normals(mesh_.mesh, mesh_.properties, positions,
+                                          is_moved(mesh_, nodes_, clip_), options.properties.normals, found);
+      if (is_flat) metadata_.emplace("shading", "flat");
     }
     rewind();
   }
+  set_bits(mesh_.properties, options.properties);
   if (!skeleton_.nodes.empty() && options.skeleton_data) {
     FrameRange range = options.frames.value_or(FrameRange{0, frame_count_ - 1});
     range.last = std::min(range.last, frame_count_ - 1);  // what lies outside is refused later
     range.first = std::min(range.first, range.last);
     for (NamedData& piece : skeleton_data(skeleton_, nodes_, clip_, fps_, range, found))
       data_.push_back(std::move(piece));
-  } else if (!skeleton_.nodes.empty() && options.with_properties) {
+  } else if (!skeleton_.nodes.empty() && options.properties.wanted) {
     found.push_back(fmt::format("its skeleton of {} joints is left out: `--skeleton-data` keeps it",
                                 skeleton_.nodes.size()));
   }
@@ -186,14 +189,14 @@ OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
   } else {
     opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
   }
-  SceneMesh mesh = gather_meshes(reader, clip, options.meshes, options.with_properties, opened.notes);
+  SceneMesh mesh = gather_meshes(reader, clip, options.meshes, options.properties.wanted, opened.notes);
   place_normals(mesh, places_at(scene.nodes, clip, clip.first));
   const std::size_t vertices_before = mesh.positions.size();
   weld(mesh);
   note_mesh(path, mesh, vertices_before, opened.notes);
   auto source = std::make_unique<SceneSource>(scene, std::move(clip), std::move(mesh), fps);
   std::vector<NamedData> data;
-  if (options.with_properties) data = reader.read_data(opened.notes);
+  if (options.properties.wanted) data = reader.read_data(options.properties.embed_textures, opened.notes);
   source->settle(options, rate, std::move(data), opened.notes);
   opened.source = std::move(source);
   return opened;
