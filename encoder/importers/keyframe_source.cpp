@@ -146,7 +146,6 @@ class KeyframeSource final : public FrameSource {
     place(first.positions, positions);
     for (Attribute& attribute : properties_.attributes)
       attribute = with_joined_vertices(attribute, faces_, vertex_of_, vertex_count_);
-    set_bits(properties_, options_.properties);
     std::vector<std::string> found;
     is_flat_ = choose_normals(mesh_, properties_, positions, frames_ > 1, options_.properties.normals, found);
     for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", path_, note));

@@ -135,10 +135,6 @@ Attribute with_joined_vertices(const Attribute& of_vertices, std::span<const Fac
   return joined;
 }
 
-void set_bits(MeshProperties& properties, const PropertyOptions& options) {
-  for (Attribute& attribute : properties.attributes) attribute.bits = options.bits_of(attribute.kind);
-}
-
 std::string plain_name(std::string name, std::size_t longest) {
   if (name.size() > longest) {
     // Not through a letter of several bytes.

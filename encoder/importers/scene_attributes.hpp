@@ -1,6 +1,4 @@
 #pragma once
-#include "encoder/importers/property_options.hpp"
-
 #include <cstdint>
 #include <span>
 #include <string>
@@ -43,9 +41,6 @@ class AttributeGatherer {
 /// differ; values count where a face uses them, and else of the first that became a vertex.
 Attribute with_joined_vertices(const Attribute& of_vertices, std::span<const Face> faces,
                                std::span<const std::uint32_t> vertex_of, std::uint32_t vertex_count);
-
-/// Makes attributes as fine as their kinds are to be.
-void set_bits(MeshProperties& properties, const PropertyOptions& options);
 
 /// Bytes of a name in a stream.
 inline constexpr std::size_t kLongestName = 1024;

@@ -123,7 +123,6 @@ void SceneSource::settle(const SceneOptions& options, const std::string& rate, s
     }
     rewind();
   }
-  set_bits(mesh_.properties, options.properties);
   if (!skeleton_.nodes.empty() && options.skeleton_data) {
     FrameRange range = options.frames.value_or(FrameRange{0, frame_count_ - 1});
     range.last = std::min(range.last, frame_count_ - 1);  // what lies outside is refused later

@@ -294,13 +294,5 @@ TEST_F(SceneProperties, TheSkeletonIsKeptWhereThatIsAskedForAndElseANoteSaysSo) 
   EXPECT_THAT(opened.notes, Not(Contains(HasSubstr("--skeleton-data"))));
 }
 
-TEST_F(SceneProperties, AttributesAreAsFineAsTheirKindIsToBe) {
-  GltfBuilder gltf = one_triangle();
-  attributes_of(gltf)["TEXCOORD_0"] = gltf.add<float>("VEC2", {0, 1, 1, 1, 1, 0});
-  PropertyOptions options;
-  options.bits[static_cast<std::size_t>(AttributeKind::kTexcoord)] = 9;
-  EXPECT_EQ(find(*open_with(gltf, options).source, "TEXCOORD_0")->bits, 9);
-}
-
 }  // namespace
 }  // namespace tvg::cli
