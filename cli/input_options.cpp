@@ -76,6 +76,8 @@ void add_property_options(CLI::App& command, InputArguments& arguments) {
                      "bits per component of a colour, 1 to 24, or exact (default 8)");
   command.add_flag("--embed-textures", arguments.embed_textures,
                    "put the files of textures into the stream; without it, it has their names");
+  command.add_flag("--skeleton-data", arguments.skeleton_data,
+                   "keep the names of a scene's joints and where they are in each frame");
 }
 
 namespace {
@@ -158,6 +160,7 @@ OpenedInput open_input(const InputArguments& arguments, bool open_ended) {
   OpenedInput opened;
   SourceSpec spec{arguments.inputs, {}};
   spec.scene = {arguments.clip, arguments.meshes, arguments.fps};
+  spec.scene.skeleton_data = arguments.skeleton_data;
   spec.open_ended = open_ended;
   spec.sequence = sequence_options(arguments.gaps, arguments.weld);
   spec.sequence.properties = property_options(arguments);

@@ -33,6 +33,7 @@ struct InputArguments {
   std::string normal_bits;
   std::string colour_bits;
   bool embed_textures = false;
+  bool skeleton_data = false;
 };
 
 /// Declares the inputs, --frames, --gaps, --weld, --cache-up, --clip, --mesh and --skeleton; `arguments` must
@@ -46,7 +47,7 @@ void add_sequence_options(CLI::App& command, std::string& gaps, std::string& wel
 SequenceOptions sequence_options(const std::string& gaps, const std::string& weld);
 
 /// Declares what is kept of the inputs beside positions: --attributes, --normals, --uv-bits, --normal-bits,
-/// --colour-bits and --embed-textures. A command without them keeps what it can.
+/// --colour-bits, --embed-textures and --skeleton-data. A command without them keeps what it can.
 void add_property_options(CLI::App& command, InputArguments& arguments);
 /// How fine attributes are, as these options say. Throws ToolError (kUsage).
 AttributeBits attribute_bits(const InputArguments& arguments);

@@ -1,5 +1,6 @@
 #include "encoder/importers/assimp_import.hpp"
 
+#include "encoder/importers/assimp_polygons.hpp"
 #include "encoder/importers/scene_file.hpp"
 #include "encoder/importers/scene_reader.hpp"
 #include "encoder/importers/trial.hpp"
@@ -39,7 +40,10 @@ const aiScene* import(Assimp::Importer& importer, const std::string& path,
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
   if (keyframe) importer.SetPropertyInteger(AI_CONFIG_IMPORT_GLOBAL_KEYFRAME, static_cast<int>(*keyframe));
-  return importer.ReadFile(path, aiProcess_Triangulate);
+  const aiScene* const scene = importer.ReadFile(path, 0);
+  // Polygons are kept where they can be; others assimp cuts as they need to be.
+  if (scene == nullptr || are_fans(*scene)) return scene;
+  return importer.ApplyPostProcessing(aiProcess_Triangulate);
 }
 
 /// assimp crashes, hangs or takes all memory on some damaged files (a cut .md5mesh, for one), so a child

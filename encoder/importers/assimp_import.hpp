@@ -12,7 +12,8 @@ namespace tvg::cli {
 
 struct Scene;
 
-/// A file that assimp has read, its polygons triangulated. A child process reads it first, so that a crash,
+/// A file that assimp has read; if a polygon in it is no fan around a corner, all have been cut to triangles.
+/// A child process reads it first, so that a crash,
 /// an endless loop or a size that is a lie becomes a message.
 class AssimpImport {
  public:

@@ -1,7 +1,10 @@
 #include "encoder/importers/assimp_reader.hpp"
 
+#include "encoder/importers/assimp_attributes.hpp"
 #include "encoder/importers/assimp_clip.hpp"
 #include "encoder/importers/assimp_import.hpp"
+#include "encoder/importers/assimp_materials.hpp"
+#include "encoder/importers/assimp_polygons.hpp"
 #include "tool/mesh_format.hpp"
 
 #include <assimp/scene.h>
@@ -59,7 +62,10 @@ class AssimpReader final : public SceneReader {
  public:
   AssimpReader(const std::string& path, std::optional<std::uint32_t> keyframe);
 
-  std::vector<ScenePart> read_mesh(std::size_t mesh) const override;
+  std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const override;
+  std::vector<NamedData> read_data(bool embed_textures, std::vector<std::string>& notes) const override {
+    return read_assimp_data(scene_.path, *import_, scene_.material_names, embed_textures, notes);
+  }
   Clip read_clip(std::size_t clip, std::vector<std::string>& notes) const override {
     return read_assimp_clip(scene_, names_, *import_->mAnimations[clip], notes);
   }
@@ -87,6 +93,7 @@ AssimpReader::AssimpReader(const std::string& path, std::optional<std::uint32_t>
   read_nodes();
   read_meshes();
   read_instances();
+  scene_.material_names = name_assimp_materials(*import_);
   for (unsigned i = 0; i < import_->mNumAnimations; ++i) {
     scene_.clip_names.emplace_back(import_->mAnimations[i]->mName.C_Str());
   }
@@ -207,22 +214,18 @@ void AssimpReader::read_targets(const aiMesh& mesh, ScenePart& part) const {
   }
 }
 
-std::vector<ScenePart> AssimpReader::read_mesh(std::size_t index) const {
+std::vector<ScenePart> AssimpReader::read_mesh(std::size_t index, bool with_attributes) const {
   const aiMesh& mesh = *import_->mMeshes[index];
   std::vector<ScenePart> parts(1);
   ScenePart& part = parts.front();
   if (mesh.mVertices == nullptr) return parts;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) part.positions.push_back(to_point(mesh.mVertices[i]));
-  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
-    const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices == 3 && face.mIndices != nullptr) {
-      part.faces.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
-    } else {
-      ++part.left_out;
-    }
-  }
+  read_assimp_faces(mesh, part);
   if (mesh.mNumBones > 0) read_influences(mesh, part);
   read_targets(mesh, part);
+  if (!with_attributes) return parts;
+  read_assimp_attributes(mesh, part);
+  if (mesh.mMaterialIndex < scene_.material_names.size()) part.material = mesh.mMaterialIndex;
   return parts;
 }
 

@@ -141,6 +141,10 @@ std::uint64_t GltfAccessors::count(int index, const std::string& what) const {
   return find(index, what).count;
 }
 
+std::size_t GltfAccessors::width(int index, const std::string& what) const {
+  return width_of(find(index, what).type);
+}
+
 bool GltfAccessors::has_bytes(int index, const std::string& what) const {
   const tinygltf::Accessor& accessor = find(index, what);
   return accessor.sparse.isSparse ||

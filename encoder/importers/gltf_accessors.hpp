@@ -27,11 +27,17 @@ class GltfAccessors {
 
   /// Elements of an accessor, which must be there.
   std::uint64_t count(int index, const std::string& what) const;
+  /// Components of its elements; 0 of types that are not read.
+  std::size_t width(int index, const std::string& what) const;
   bool has_bytes(int index, const std::string& what) const;
   /// [element][component], of elements with `width` components. `what` is read, for messages. `normalized`
   /// takes integers for fractions whatever the accessor says. Throws ImportError: bytes that are not there,
   /// types that do not fit, more than the limits.
   std::vector<double> read(int index, std::size_t width, const std::string& what, bool normalized = false);
+  /// The bytes of a view, decompressed, as GltfBuffers has them.
+  std::span<const unsigned char> view(int index) { return buffers_.view(index); }
+  /// The bytes of a file that a URI names. Throws ImportError.
+  std::string file(const std::string& uri) const { return buffers_.file(uri); }
   /// Bytes of buffers and views that have been used, and of the binary chunk.
   std::uint64_t bytes() const { return bytes_ + buffers_.size(); }
   /// Unsigned integers, [element][component].

@@ -22,6 +22,8 @@ class GltfBuffers {
 
   /// The bytes of a view, decompressed. Throws ImportError (kIo, kInvalidInput, kTruncated).
   std::span<const unsigned char> view(int index);
+  /// The bytes of a file that a URI names.
+  std::string file(const std::string& uri) const { return read_file_(uri); }
   /// Bytes that have been brought in and decompressed so far.
   std::uint64_t size() const { return size_; }
 

@@ -160,8 +160,45 @@ std::vector<GltfBufferInfo> read_buffers(const std::string& path, const Json& li
   return buffers;
 }
 
-/// Leaves what tinygltf is to read. It wants the bytes of buffers and images at once, and a view of every
-/// accessor of indices, which may have none.
+/// The lists that describe materials, moved out of the file's JSON.
+Json take_materials(Json& json) {
+  Json taken = Json::object();
+  for (const char* list : {"materials", "textures", "images", "samplers"}) {
+    if (member(json, list).is_array()) taken[list] = std::move(json[list]);
+  }
+  return taken;
+}
+
+/// `extras` of a list's members, each with its number and name.
+Json listed_extras(const Json& list) {
+  Json found = Json::array();
+  for (std::size_t i = 0; list.is_array() && i < list.size(); ++i) {
+    const Json& extras = member(list[i], "extras");
+    if (extras.is_null()) continue;
+    found.push_back({{"index", i}, {"extras", extras}});
+    if (member(list[i], "name").is_string()) found.back()["name"] = list[i]["name"];
+  }
+  return found;
+}
+
+Json collect_extras(const Json& json) {
+  Json extras = Json::object();
+  const Json& scenes = member(json, "scenes");
+  const Json& shown = member(json, "scene");
+  const std::size_t index = shown.is_number_unsigned() ? shown.get<std::size_t>() : 0;
+  if (scenes.is_array() && index < scenes.size()) {
+    const Json& of_scene = member(scenes[index], "extras");
+    if (!of_scene.is_null()) extras["scene"] = of_scene;
+  }
+  for (const char* list : {"nodes", "meshes"}) {
+    if (Json found = listed_extras(member(json, list)); !found.empty()) extras[list] = std::move(found);
+  }
+  return extras;
+}
+
+/// Leaves what tinygltf is to read. It wants the bytes of buffers and images at once (which are brought in
+/// where they are asked for, and no farther away than beside the file), and a view of every accessor of
+/// indices, which may have none.
 void prepare(Json& json) {
   for (const char* other :
        {"buffers", "images", "textures", "samplers", "materials", "cameras", "extensions", "extras"}) {
@@ -192,6 +229,8 @@ GltfDocument read_gltf_document(const std::string& path, std::string_view bytes)
   check_required_extensions(path, texts(member(json, "extensionsRequired")));
   document.notes = extension_notes(path, texts(member(json, "extensionsUsed")));
   document.buffers = read_buffers(path, member(json, "buffers"));
+  document.materials = take_materials(json);
+  document.extras = collect_extras(json);
   prepare(json);
   std::string reason;
   if (!load_gltf_model(json.dump(), document.model, reason)) {

@@ -2,6 +2,7 @@
 #include "encoder/importers/gltf_model.hpp"
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,14 +17,17 @@ struct GltfBufferInfo {
   bool is_fallback = false;  ///< has no bytes: all its views are compressed
 };
 
-/// A glTF file taken apart: its JSON in tinygltf's form, by number, without buffers, images and what belongs
-/// to materials; where the bytes are.
+/// A glTF file taken apart: its JSON in tinygltf's form, by number, without buffers and what belongs to
+/// materials; that as JSON; where the bytes are.
 struct GltfDocument {
   int version = 0;        ///< the major one; of others than 2 nothing else is there
   tinygltf::Model model;  ///< an accessor without a view has the number of the last view, which is added
   std::vector<GltfBufferInfo> buffers;
   std::optional<std::string_view> binary;  ///< the chunk of a binary file; points into its bytes
-  std::vector<std::string> notes;          ///< extensions that are passed over
+  nlohmann::json
+      materials;          ///< an object with what there is of `materials`, `textures`, `images`, `samplers`
+  nlohmann::json extras;  ///< `extras`, an object with what there is of `scene`, `nodes` and `meshes`
+  std::vector<std::string> notes;  ///< extensions that are passed over
 };
 
 /// Takes apart the bytes of a .gltf or .glb file, whichever they are; `path` is its name for messages. Throws

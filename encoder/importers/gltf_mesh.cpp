@@ -1,5 +1,7 @@
 #include "encoder/importers/gltf_mesh.hpp"
 
+#include "encoder/importers/gltf_attributes.hpp"
+
 #include <fmt/format.h>
 #include <limits>
 
@@ -21,12 +23,18 @@ class PrimitiveReader {
                   GltfAccessors& accessors)
       : scene_(scene), primitive_(primitive), name_(std::move(name)), accessors_(accessors) {}
 
-  ScenePart read() {
+  ScenePart read(bool with_attributes) {
     read_positions();
     read_faces();
     if (part_.faces.empty()) return std::move(part_);
     read_weights();
     read_targets();
+    if (with_attributes) {
+      read_gltf_attributes(primitive_, name_, accessors_, part_);
+      if (primitive_.material >= 0 &&
+          static_cast<std::size_t>(primitive_.material) < scene_.material_names.size())
+        part_.material = static_cast<std::size_t>(primitive_.material);
+    }
     return std::move(part_);
   }
 
@@ -139,15 +147,15 @@ class PrimitiveReader {
 }  // namespace
 
 std::vector<ScenePart> read_gltf_mesh(const Scene& scene, const tinygltf::Mesh& mesh, const std::string& name,
-                                      GltfAccessors& accessors) {
+                                      GltfAccessors& accessors, bool with_attributes) {
   std::vector<ScenePart> parts;
   for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
     const tinygltf::Primitive& primitive = mesh.primitives[i];
     // Without positions there is nothing to show, the specification says.
     if (!primitive.attributes.contains("POSITION")) continue;
     const std::string which = mesh.primitives.size() > 1 ? fmt::format(", primitive {}", i) : "";
-    parts.push_back(
-        PrimitiveReader(scene, primitive, fmt::format("mesh \"{}\"{}", name, which), accessors).read());
+    parts.push_back(PrimitiveReader(scene, primitive, fmt::format("mesh \"{}\"{}", name, which), accessors)
+                        .read(with_attributes));
   }
   return parts;
 }

@@ -2,6 +2,7 @@
 
 #include "encoder/importers/gltf_clip.hpp"
 #include "encoder/importers/gltf_instances.hpp"
+#include "encoder/importers/gltf_materials.hpp"
 #include "encoder/importers/gltf_mesh.hpp"
 #include "encoder/importers/gltf_nodes.hpp"
 #include "encoder/importers/gltf_uri.hpp"
@@ -32,6 +33,7 @@ class GltfReader final : public SceneReader {
     }
     for (const tinygltf::Animation& animation : model().animations)
       scene_.clip_names.push_back(animation.name);
+    scene_.material_names = name_gltf_materials(document_);
     read_gltf_nodes(document_, scene_, nodes_);
     place_instances(limits.most_vertices(bytes_.size()) / kVerticesPerInstance);
     read_skins();
@@ -39,11 +41,16 @@ class GltfReader final : public SceneReader {
 
   bool is_read() const { return document_.version == 2; }
 
-  std::vector<ScenePart> read_mesh(std::size_t mesh) const override {
-    return read_gltf_mesh(scene_, model().meshes[mesh], scene_.mesh_names[mesh], *accessors_);
+  std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const override {
+    return read_gltf_mesh(scene_, model().meshes[mesh], scene_.mesh_names[mesh], *accessors_,
+                          with_attributes);
   }
   Clip read_clip(std::size_t clip, std::vector<std::string>& /*notes*/) const override {
     return read_gltf_clip(scene_, document_, nodes_, clip, *accessors_);
+  }
+
+  std::vector<NamedData> read_data(bool embed_textures, std::vector<std::string>& notes) const override {
+    return read_gltf_data(scene_.path, document_, *accessors_, embed_textures, notes);
   }
 
  private:

@@ -4,7 +4,9 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
 #include "encoder/importers/mesh_file.hpp"
+#include "encoder/importers/scene_attributes.hpp"
 #include "encoder/importers/scene_mesh.hpp"
+#include "encoder/importers/scene_normals.hpp"
 #include "tool/option_values.hpp"
 
 #include <array>
@@ -38,13 +40,15 @@ constexpr std::uint32_t kMostKeyframes = 65536;
 struct Keyframe {
   SceneMesh mesh;
   FramePositions positions;
+  std::vector<NamedData> data = {};  ///< of the first frame
 };
 
-Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const SceneOptions& options) {
+Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const SceneOptions& options,
+                       std::vector<std::string>& notes) {
   const std::unique_ptr<SceneReader> reader = read_scene(path, frame);
   const SceneNodes& nodes = reader->scene().nodes;
-  std::vector<std::string> notes;
-  Keyframe keyframe{gather_meshes(*reader, {}, options.meshes, notes), {}};
+  const bool with_properties = frame == 0 && options.properties.wanted;
+  Keyframe keyframe{gather_meshes(*reader, {}, options.meshes, with_properties, notes), {}};
   std::vector<Transform> global, scratch;
   nodes.to_scene_space(nodes.rest_pose(), global);
   keyframe.positions.resize(3 * keyframe.mesh.positions.size());
@@ -53,14 +57,20 @@ Keyframe read_keyframe(const std::string& path, std::uint32_t frame, const Scene
     reader->scene().fail(
         fmt::format("frame {}, vertex {} has a coordinate that is NaN or infinite", frame, bad / 3));
   }
+  if (with_properties) {
+    place_normals(keyframe.mesh, global);
+    keyframe.data = reader->read_data(options.properties.embed_textures, notes);
+  }
   return keyframe;
 }
 
 class KeyframeSource final : public FrameSource {
  public:
-  KeyframeSource(std::string path, std::uint32_t frames, SceneOptions options)
+  KeyframeSource(std::string path, std::uint32_t frames, SceneOptions options,
+                 std::vector<std::string>& notes)
       : path_(std::move(path)), frames_(frames), options_(std::move(options)) {
-    Keyframe first = read_keyframe(path_, 0, options_);
+    std::vector<std::string> found;
+    Keyframe first = read_keyframe(path_, 0, options_, found);
     faces_ = std::move(first.mesh.mesh.faces);
     parts_ = first.mesh.parts;
     vertex_of_.assign(first.mesh.positions.size(), 0);
@@ -71,11 +81,18 @@ class KeyframeSource final : public FrameSource {
     for (Face& face : mesh_.faces) {
       for (std::uint32_t& index : face) index = vertex_of_[index];
     }
+    settle(first, found);
+    notes.insert(notes.end(), found.begin(), found.end());
   }
 
   const Mesh& mesh() const override { return mesh_; }
+  const MeshProperties& properties() const override { return properties_; }
+  std::span<const NamedData> data() const override { return data_; }
   Metadata metadata() const override {
-    return options_.fps.empty() ? Metadata() : Metadata{{"fps", options_.fps}};
+    Metadata metadata;
+    if (!options_.fps.empty()) metadata.emplace("fps", options_.fps);
+    if (is_flat_) metadata.emplace("shading", "flat");
+    return metadata;
   }
   std::optional<std::uint64_t> frame_count() const override { return frames_; }
   Result<bool> read_frame(std::span<float> positions) override;
@@ -93,7 +110,8 @@ class KeyframeSource final : public FrameSource {
 
  private:
   Keyframe read_checked(std::uint32_t frame) const {
-    Keyframe keyframe = read_keyframe(path_, frame, options_);
+    std::vector<std::string> notes;
+    Keyframe keyframe = read_keyframe(path_, frame, options_, notes);
     if (keyframe.mesh.mesh.faces != faces_ || keyframe.mesh.positions.size() != vertex_of_.size()) {
       throw ImportError(ErrorCode::kInvalidInput,
                         fmt::format("{}: frame {} has other faces than frame 0", path_, frame));
@@ -104,20 +122,40 @@ class KeyframeSource final : public FrameSource {
   /// Parts vertices that have been taken for one and lie apart in this frame.
   void split(const FramePositions& positions) {
     using Place = std::array<float, 3>;
-    const auto place = [&positions](std::uint32_t vertex) {
+    const auto place_of = [&positions](std::uint32_t vertex) {
       const std::size_t x = 3 * std::size_t{vertex};
       return Place{positions[x], positions[x + 1], positions[x + 2]};
     };
     const auto hash = [&](std::uint32_t vertex) {
       std::uint64_t mixed = mix_hash(0, vertex_of_[vertex]);
-      for (const float x : place(vertex)) mixed = mix_hash(mixed, std::bit_cast<std::uint32_t>(x + 0.0F));
+      for (const float x : place_of(vertex)) mixed = mix_hash(mixed, std::bit_cast<std::uint32_t>(x + 0.0F));
       return mixed;
     };
     Weld weld = weld_points(vertex_of_.size(), hash, [&](std::uint32_t a, std::uint32_t b) {
-      return vertex_of_[a] == vertex_of_[b] && place(a) == place(b);
+      return vertex_of_[a] == vertex_of_[b] && place_of(a) == place_of(b);
     });
     vertex_count_ = weld.vertex_count();
     vertex_of_ = std::move(weld.vertex_of_point);
+  }
+
+  /// What the mesh has beside its faces, of the first frame.
+  void settle(Keyframe& first, std::vector<std::string>& notes) {
+    data_ = std::move(first.data);
+    properties_ = std::move(first.mesh.properties);
+    FramePositions positions(3 * std::size_t{vertex_count_});
+    place(first.positions, positions);
+    for (Attribute& attribute : properties_.attributes)
+      attribute = with_joined_vertices(attribute, faces_, vertex_of_, vertex_count_);
+    std::vector<std::string> found;
+    is_flat_ = choose_normals(mesh_, properties_, positions, frames_ > 1, options_.properties.normals, found);
+    for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", path_, note));
+  }
+
+  /// To where vertices are after the weld.
+  void place(const FramePositions& apart, std::span<float> positions) const {
+    for (std::size_t vertex = 0; vertex < vertex_of_.size(); ++vertex) {
+      std::memcpy(&positions[3 * std::size_t{vertex_of_[vertex]}], &apart[3 * vertex], 3 * sizeof(float));
+    }
   }
 
   std::string path_;
@@ -128,17 +166,16 @@ class KeyframeSource final : public FrameSource {
   std::uint32_t vertex_count_ = 0;
   std::size_t parts_ = 0;
   Mesh mesh_;
+  MeshProperties properties_;
+  bool is_flat_ = false;
+  std::vector<NamedData> data_;
   std::uint64_t next_ = 0;
 };
 
 Result<bool> KeyframeSource::read_frame(std::span<float> positions) {
   if (next_ >= frames_) return false;
   try {
-    const Keyframe keyframe = read_checked(static_cast<std::uint32_t>(next_));
-    for (std::size_t vertex = 0; vertex < vertex_of_.size(); ++vertex) {
-      std::memcpy(&positions[3 * std::size_t{vertex_of_[vertex]}], &keyframe.positions[3 * vertex],
-                  3 * sizeof(float));
-    }
+    place(read_checked(static_cast<std::uint32_t>(next_)).positions, positions);
   } catch (const ImportError& error) {
     return error.as_value();
   } catch (const ToolError& error) {
@@ -182,8 +219,8 @@ OpenedScene open_keyframes(const std::string& path, std::uint32_t frames, const 
                                 options.clip, path, frames));
   }
   if (!options.fps.empty()) parse_rate(options.fps);
-  auto source = std::make_unique<KeyframeSource>(path, frames, options);
   OpenedScene opened;
+  auto source = std::make_unique<KeyframeSource>(path, frames, options, opened.notes);
   if (source->parts() > 1) {
     opened.notes.push_back(fmt::format("{}: {} meshes merged into one", path, source->parts()));
   }

@@ -217,7 +217,10 @@ OpenedSource open_scene_alone(const SourceSpec& spec, const std::string& path) {
     fail_usage(
         fmt::format("--skeleton {}: {} is a scene, which brings its own skeleton", spec.skeleton, path));
   }
-  OpenedScene opened = open_scene(path, spec.scene);
+  SceneOptions options = spec.scene;
+  options.frames = spec.frames;
+  options.properties = spec.sequence.properties;
+  OpenedScene opened = open_scene(path, options);
   if (!spec.frames) return {std::move(opened.source), std::move(opened.notes)};
   check_frame_range(*spec.frames, opened.source->frame_count().value(), path);
   return {std::make_unique<FrameRangeSource>(std::move(opened.source), *spec.frames),

@@ -120,6 +120,10 @@ std::uint64_t Clip::frame_count(double fps) const {
   return static_cast<std::uint64_t>(std::max(samples, 0.0)) + 1;
 }
 
+double Clip::time_of(std::uint64_t frame, double fps) const {
+  return std::min(first + static_cast<double>(frame) / fps, last);
+}
+
 void Clip::pose(double seconds, const std::vector<Transform>& rest, std::vector<Transform>& local) const {
   local = rest;
   for (const NodeChannel& channel : nodes) local[channel.node] = channel.at(seconds);

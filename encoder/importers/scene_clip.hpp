@@ -53,6 +53,8 @@ struct Clip {
   /// Samples at `fps` from the first key to the last, both included: where the duration is no whole number of
   /// samples, the last one is taken up to one sample late and shows the last key.
   std::uint64_t frame_count(double fps) const;
+  /// The time that such a sample shows, in seconds.
+  double time_of(std::uint64_t frame, double fps) const;
   /// Places of all nodes at a time, [node]; starts from `rest`.
   void pose(double seconds, const std::vector<Transform>& rest, std::vector<Transform>& local) const;
 };

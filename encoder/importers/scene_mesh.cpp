@@ -1,7 +1,10 @@
 #include "encoder/importers/scene_mesh.hpp"
 
+#include "encoder/importers/scene_attributes.hpp"
+
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include <tvg/geometry.hpp>
 
@@ -66,6 +69,33 @@ void SceneMesh::pose(const std::vector<Transform>& global, const std::vector<dou
   }
 }
 
+void place_normals(SceneMesh& mesh, const std::vector<Transform>& global) {
+  std::vector<Eigen::Matrix3d> linear;
+  for (const Carrier& carrier : mesh.carriers)
+    linear.push_back((global[carrier.node] * carrier.offset).linear());
+  for (Attribute& attribute : mesh.properties.attributes) {
+    if (attribute.kind != AttributeKind::kNormal) continue;
+    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+      Eigen::Matrix3d blended = Eigen::Matrix3d::Zero();
+      for (const Influence& influence : mesh.influences_of(vertex))
+        blended += influence.weight * linear[influence.carrier];
+      // What is across the images of two edges is across their images under the cofactors.
+      Eigen::Matrix3d cofactors;
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        cofactors.col(axis) = blended.col((axis + 1) % 3).cross(blended.col((axis + 2) % 3));
+      if (blended.determinant() < 0) cofactors = -cofactors;
+      Eigen::Map<Eigen::Vector3f> normal(&attribute.values[3 * vertex]);
+      const Eigen::Vector3d placed = cofactors * normal.cast<double>();
+      const double length = placed.norm();
+      if (std::isfinite(length) && length > 0) {
+        normal = (placed / length).cast<float>();
+      } else {
+        normal.setZero();
+      }
+    }
+  }
+}
+
 void weld(SceneMesh& mesh) {
   const Weld found = weld_points(
       mesh.positions.size(), [&mesh](std::size_t vertex) { return hash_of(mesh, vertex); },
@@ -79,6 +109,9 @@ void weld(SceneMesh& mesh) {
     for (const MorphDelta& morph : mesh.morphs_of(vertex)) welded.morphs.push_back(morph);
     welded.influence_begin.push_back(welded.influences.size());
     welded.morph_begin.push_back(welded.morphs.size());
+  }
+  for (Attribute& attribute : mesh.properties.attributes) {
+    attribute = with_joined_vertices(attribute, mesh.mesh.faces, found.vertex_of_point, found.vertex_count());
   }
   for (Face& face : mesh.mesh.faces) {
     for (std::uint32_t& index : face) index = found.vertex_of_point[index];

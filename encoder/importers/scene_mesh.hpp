@@ -45,8 +45,9 @@ struct SceneMesh {
   std::vector<Carrier> carriers;
   std::vector<MorphSlots> slots;
   std::size_t slot_count = 0;
-  std::size_t parts = 0;     ///< meshes merged, counted once for each node that holds them
-  std::size_t left_out = 0;  ///< points and lines, which are not encoded
+  MeshProperties properties;  ///< before weld() all attributes are of vertices
+  std::size_t parts = 0;      ///< meshes merged, counted once for each node that holds them
+  std::size_t left_out = 0;   ///< points and lines, which are not encoded
 
   std::span<const Influence> influences_of(std::size_t vertex) const;
   std::span<const MorphDelta> morphs_of(std::size_t vertex) const;
@@ -61,11 +62,17 @@ struct SceneMesh {
 /// `clip` moves become slots, others are applied with the weights they have. Faces of a mesh that its node
 /// mirrors when the clip begins are turned, so that they look outward still. Throws ImportError
 /// (kInvalidInput: no faces, bad indices, numbers that are not finite) and ToolError (kUsage: unknown names).
+/// Attributes, parts and polygons come along with `with_properties`: objects are nodes, groups are meshes.
 SceneMesh gather_meshes(const SceneReader& reader, const Clip& clip, const std::vector<std::string>& wanted,
-                        std::vector<std::string>& notes);
+                        bool with_properties, std::vector<std::string>& notes);
+
+/// Turns normals from the spaces of their meshes to that of the scene, where nodes stand at `global`
+/// ([node]), and makes them 1 long; morph targets do not count.
+void place_normals(SceneMesh& mesh, const std::vector<Transform>& global);
 
 /// Joins vertices that agree in position, influences and morph deltas to the bit, in order of first
 /// appearance: a format that stores texture coordinates per vertex splits the mesh along every seam.
+/// Attributes that differ there become those of corners.
 void weld(SceneMesh& mesh);
 
 }  // namespace tvg::cli

@@ -1,3 +1,4 @@
+#include "encoder/importers/scene_attributes.hpp"
 #include "encoder/importers/scene_choice.hpp"
 #include "encoder/importers/scene_mesh.hpp"
 
@@ -6,15 +7,27 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <tuple>
 
 namespace tvg::cli {
 
 namespace {
 
+/// As many for each vertex that may be read as positions, joints and weights of a glTF have.
+constexpr std::uint64_t kNumbersPerVertex = 16;
+
+/// On attributes, of different meshes.
+constexpr std::size_t kMostNotes = 8;
+
 class Gatherer {
  public:
-  Gatherer(const SceneReader& reader, const Clip& clip, std::vector<char> chosen)
-      : reader_(reader), scene_(reader.scene()), clip_(clip), chosen_(std::move(chosen)) {
+  Gatherer(const SceneReader& reader, const Clip& clip, std::vector<char> chosen, bool with_properties)
+      : reader_(reader),
+        scene_(reader.scene()),
+        clip_(clip),
+        chosen_(std::move(chosen)),
+        with_properties_(with_properties),
+        attributes_(kNumbersPerVertex * scene_.most_vertices) {
     result_.influence_begin = {0};
     result_.morph_begin = {0};
     std::vector<Transform> local;
@@ -22,12 +35,13 @@ class Gatherer {
     scene_.nodes.to_scene_space(local, global_);
   }
 
-  SceneMesh gather() {
+  SceneMesh gather(std::vector<std::string>& notes) {
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
       if (chosen_[i] == 0) continue;
       const SceneInstance& instance = scene_.instances[i];
       if (instance.skin && !skinned_.emplace(instance.mesh, *instance.skin).second) continue;
-      if (!parts_.contains(instance.mesh)) parts_.emplace(instance.mesh, reader_.read_mesh(instance.mesh));
+      if (!parts_.contains(instance.mesh))
+        parts_.emplace(instance.mesh, reader_.read_mesh(instance.mesh, with_properties_));
       for (const ScenePart& part : parts_.at(instance.mesh)) take(instance, part);
     }
     if (result_.mesh.faces.empty()) {
@@ -35,6 +49,7 @@ class Gatherer {
                                             : "its meshes have no faces to encode");
     }
     result_.mesh.vertex_count = static_cast<std::uint32_t>(result_.positions.size());
+    finish_properties(notes);
     return std::move(result_);
   }
 
@@ -53,12 +68,60 @@ class Gatherer {
                       scene_.most_vertices));
     }
     ++result_.parts;
+    take_properties(instance, part);
     take_faces(instance, part, first);
     take_positions(instance, part);
     take_influences(instance, part);
   }
 
+  /// Before the faces are taken.
+  void take_properties(const SceneInstance& instance, const ScenePart& part) {
+    for (const std::string& note : part.notes) notes_.insert(note);
+    if (!with_properties_) return;
+    if (!attributes_.take(part.positions.size(), part.attributes)) {
+      scene_.fail("the attributes of its meshes are more than is read of a file of its size");
+    }
+    MeshProperties& properties = result_.properties;
+    for (Polygon polygon : part.polygons) {
+      polygon.first_triangle += result_.mesh.faces.size();
+      properties.polygons.push_back(polygon);
+    }
+    Part names{plain_name(scene_.nodes.list()[instance.node].name),
+               plain_name(scene_.mesh_names[instance.mesh]),
+               part.material ? scene_.material_names[*part.material] : ""};
+    const auto key = std::tuple(names.object, names.group, names.material);
+    const auto [entry, is_new] = part_of_.emplace(key, static_cast<std::uint32_t>(properties.parts.size()));
+    if (is_new) properties.parts.push_back(std::move(names));
+    properties.face_parts.insert(properties.face_parts.end(), part.faces.size(), entry->second);
+  }
+
+  void finish_properties(std::vector<std::string>& notes) {
+    result_.properties.attributes = attributes_.finish();
+    if (attributes_.left_out() > 0) {
+      notes.push_back(fmt::format("{}: it has more than {} attributes, of which {} are taken", scene_.path,
+                                  kMaxAttributes, kMaxAttributes));
+    }
+    std::size_t told = 0;
+    for (const std::string& note : notes_) {
+      if (++told > kMostNotes) continue;
+      notes.push_back(note.starts_with(scene_.path) ? note : fmt::format("{}: {}", scene_.path, note));
+    }
+    if (told > kMostNotes)
+      notes.push_back(fmt::format("{}: {} more notes on attributes", scene_.path, told - kMostNotes));
+  }
+
+  /// Turns faces to look the other way. The fan of a polygon then begins with its last triangle.
+  void turn(const ScenePart& part, std::size_t first_face) {
+    const auto begin = result_.mesh.faces.begin() + static_cast<std::ptrdiff_t>(first_face);
+    std::for_each(begin, result_.mesh.faces.end(), [](Face& face) { std::swap(face[1], face[2]); });
+    for (const Polygon& polygon : part.polygons) {
+      const auto fan = begin + static_cast<std::ptrdiff_t>(polygon.first_triangle);
+      std::reverse(fan, fan + polygon.corners - 2);
+    }
+  }
+
   void take_faces(const SceneInstance& instance, const ScenePart& part, std::size_t first) {
+    const std::size_t first_face = result_.mesh.faces.size();
     const bool mirrored =
         !instance.skin && (global_[instance.node] * instance.placed).linear().determinant() < 0;
     for (std::size_t i = 0; i < part.faces.size(); ++i) {
@@ -70,9 +133,9 @@ class Gatherer {
         }
         corner += static_cast<std::uint32_t>(first);
       }
-      if (mirrored) std::swap(face[1], face[2]);
       result_.mesh.faces.push_back(face);
     }
+    if (mirrored) turn(part, first_face);
   }
 
   /// The slots of the channel that moves the instance's morph targets; nothing where none does.
@@ -202,9 +265,13 @@ class Gatherer {
   const SceneReader& reader_;
   const Scene& scene_;
   const Clip& clip_;
-  std::vector<char> chosen_;       // [instance]
+  std::vector<char> chosen_;  // [instance]
+  bool with_properties_;
   std::vector<Transform> global_;  // [node], where the clip begins
   SceneMesh result_;
+  AttributeGatherer attributes_;
+  std::map<std::tuple<std::string, std::string, std::string>, std::uint32_t> part_of_;
+  std::set<std::string> notes_;
   std::map<std::size_t, std::vector<ScenePart>> parts_;        // by mesh
   std::set<std::pair<std::size_t, std::size_t>> skinned_;      // mesh and skin of those that have been taken
   std::map<std::vector<double>, std::uint32_t> carriers_;      // by node and offset
@@ -214,8 +281,9 @@ class Gatherer {
 }  // namespace
 
 SceneMesh gather_meshes(const SceneReader& reader, const Clip& clip, const std::vector<std::string>& wanted,
-                        std::vector<std::string>& notes) {
-  return Gatherer(reader, clip, choose_instances(reader.scene(), wanted, notes)).gather();
+                        bool with_properties, std::vector<std::string>& notes) {
+  return Gatherer(reader, clip, choose_instances(reader.scene(), wanted, notes), with_properties)
+      .gather(notes);
 }
 
 }  // namespace tvg::cli

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <tvg/properties.hpp>
 #include <tvg/source.hpp>
 
 namespace tvg::cli {
@@ -35,8 +36,9 @@ struct Scene {
   SceneNodes nodes;
   std::vector<std::string> mesh_names;  ///< [mesh]
   std::vector<SceneSkin> skins;
-  std::vector<SceneInstance> instances;  ///< in the order of their nodes
-  std::vector<std::string> clip_names;   ///< [clip]
+  std::vector<SceneInstance> instances;     ///< in the order of their nodes
+  std::vector<std::string> clip_names;      ///< [clip]
+  std::vector<std::string> material_names;  ///< [material], unique
   /// Vertices, and faces, that all instances may have together.
   std::uint64_t most_vertices = std::numeric_limits<std::uint32_t>::max();
   Metadata metadata;               ///< units and up axis, where the format says them
@@ -65,8 +67,12 @@ struct ScenePart {
   std::vector<Face> faces;                        ///< [face][corner]
   std::vector<std::vector<JointWeight>> weights;  ///< [vertex], or empty where nothing is skinned
   std::vector<std::vector<VertexShift>>
-      targets;                 ///< [morph target]; a vertex that stands still may be absent
-  std::uint64_t left_out = 0;  ///< points and lines
+      targets;                               ///< [morph target]; a vertex that stands still may be absent
+  std::vector<Attribute> attributes;         ///< of vertices, a value for each; finite, v points up
+  std::vector<Polygon> polygons;             ///< that became fans of faces
+  std::optional<std::size_t> material = {};  ///< one of the scene's
+  std::uint64_t left_out = 0;                ///< points and lines
+  std::vector<std::string> notes;            ///< on attributes that are left out
 };
 
 /// A scene file, opened. Meshes and clips are read one at a time: a character may come with hundreds of
@@ -79,10 +85,13 @@ class SceneReader {
   SceneReader& operator=(const SceneReader&) = delete;
 
   const Scene& scene() const { return scene_; }
-  /// The parts of a mesh. Throws ImportError (kInvalidInput).
-  virtual std::vector<ScenePart> read_mesh(std::size_t mesh) const = 0;
+  /// The parts of a mesh; with their attributes where those are wanted. Throws ImportError (kInvalidInput).
+  virtual std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const = 0;
   /// A clip, finished, and in `notes` what is lost of it. Throws ImportError (kInvalidInput).
   virtual Clip read_clip(std::size_t clip, std::vector<std::string>& notes) const = 0;
+  /// What NamedData calls "materials", "image/..." and "extras", with `embed_textures` the files of textures
+  /// too, and in `notes` what is left out of them.
+  virtual std::vector<NamedData> read_data(bool embed_textures, std::vector<std::string>& notes) const = 0;
 
  protected:
   Scene scene_;

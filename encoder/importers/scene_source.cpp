@@ -3,8 +3,11 @@
 #include "encoder/importers/bytes.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/keyframe_source.hpp"
+#include "encoder/importers/scene_attributes.hpp"
 #include "encoder/importers/scene_choice.hpp"
+#include "encoder/importers/scene_normals.hpp"
 #include "encoder/importers/scene_skeleton.hpp"
+#include "encoder/importers/scene_skeleton_data.hpp"
 #include "encoder/importers/text_cursor.hpp"
 #include "tool/mesh_format.hpp"
 #include "tool/option_values.hpp"
@@ -21,18 +24,24 @@ constexpr const char* kDefaultFps = "30";
 
 class SceneSource final : public FrameSource {
  public:
-  SceneSource(std::string file, SceneNodes nodes, Clip clip, SceneMesh mesh, Metadata metadata, double fps)
-      : file_(std::move(file)),
-        nodes_(std::move(nodes)),
+  SceneSource(const Scene& scene, Clip clip, SceneMesh mesh, double fps)
+      : file_(scene.path),
+        nodes_(scene.nodes),
         clip_(std::move(clip)),
         mesh_(std::move(mesh)),
-        metadata_(std::move(metadata)),
+        metadata_(scene.metadata),
         fps_(fps),
         frame_count_(clip_.frame_count(fps)),
         rest_(nodes_.rest_pose()),
         skeleton_(find_skeleton(nodes_, mesh_)) {}
 
+  /// Before the first frame is read.
+  void settle(const SceneOptions& options, const std::string& rate, std::vector<NamedData> data,
+              std::vector<std::string>& notes);
+
   const Mesh& mesh() const override { return mesh_.mesh; }
+  const MeshProperties& properties() const override { return mesh_.properties; }
+  std::span<const NamedData> data() const override { return data_; }
   Metadata metadata() const override { return metadata_; }
   const Skeleton& skeleton() const override { return skeleton_.skeleton; }
   std::span<const float> joint_positions() const override { return joint_positions_; }
@@ -59,6 +68,7 @@ class SceneSource final : public FrameSource {
   std::uint64_t frame_count_;
   std::vector<Transform> rest_;
   SceneSkeleton skeleton_;
+  std::vector<NamedData> data_;
   std::uint64_t next_ = 0;
   // Of the frame read last.
   std::vector<Transform> local_, global_, carriers_;
@@ -76,7 +86,7 @@ void SceneSource::pose_morphs(double seconds) {
 
 Result<bool> SceneSource::read_frame(std::span<float> positions) {
   if (next_ >= frame_count_) return false;
-  const double seconds = std::min(clip_.first + static_cast<double>(next_) / fps_, clip_.last);
+  const double seconds = clip_.time_of(next_, fps_);
   clip_.pose(seconds, rest_, local_);
   nodes_.to_scene_space(local_, global_);
   pose_morphs(seconds);
@@ -95,6 +105,37 @@ Result<bool> SceneSource::read_frame(std::span<float> positions) {
   return true;
 }
 
+void SceneSource::settle(const SceneOptions& options, const std::string& rate, std::vector<NamedData> data,
+                         std::vector<std::string>& notes) {
+  metadata_.emplace("fps", rate);
+  if (!clip_.name.empty() && is_plain_text(clip_.name)) metadata_.emplace("name", clip_.name);
+  data_ = std::move(data);
+  std::vector<std::string> found;
+  if (std::ranges::any_of(mesh_.properties.attributes, [](const Attribute& attribute) {
+        return attribute.kind == AttributeKind::kNormal;
+      })) {
+    FramePositions positions(3 * mesh_.positions.size());
+    // A first frame that is refused is told when it is read.
+    if (read_frame(positions)) {
+      const bool is_flat = choose_normals(mesh_.mesh, mesh_.properties, positions,
+                                          is_moved(mesh_, nodes_, clip_), options.properties.normals, found);
+      if (is_flat) metadata_.emplace("shading", "flat");
+    }
+    rewind();
+  }
+  if (!skeleton_.nodes.empty() && options.skeleton_data) {
+    FrameRange range = options.frames.value_or(FrameRange{0, frame_count_ - 1});
+    range.last = std::min(range.last, frame_count_ - 1);  // what lies outside is refused later
+    range.first = std::min(range.first, range.last);
+    for (NamedData& piece : skeleton_data(skeleton_, nodes_, clip_, fps_, range, found))
+      data_.push_back(std::move(piece));
+  } else if (!skeleton_.nodes.empty() && options.properties.wanted) {
+    found.push_back(fmt::format("its skeleton of {} joints is left out: `--skeleton-data` keeps it",
+                                skeleton_.nodes.size()));
+  }
+  for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", file_, note));
+}
+
 void note_clips(const Scene& scene, std::size_t chosen, std::vector<std::string>& notes) {
   if (scene.clip_names.size() < 2) return;
   std::vector<std::string> others;
@@ -103,6 +144,13 @@ void note_clips(const Scene& scene, std::size_t chosen, std::vector<std::string>
   }
   notes.push_back(fmt::format("{}: clip \"{}\" is taken; --clip picks another: {}", scene.path,
                               scene.clip_names[chosen], fmt::join(others, ", ")));
+}
+
+std::vector<Transform> places_at(const SceneNodes& nodes, const Clip& clip, double seconds) {
+  std::vector<Transform> local, global;
+  clip.pose(seconds, nodes.rest_pose(), local);
+  nodes.to_scene_space(local, global);
+  return global;
 }
 
 void note_mesh(const std::string& path, const SceneMesh& mesh, std::size_t vertices_before,
@@ -140,15 +188,16 @@ OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
   } else {
     opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
   }
-  SceneMesh mesh = gather_meshes(reader, clip, options.meshes, opened.notes);
+  SceneMesh mesh = gather_meshes(reader, clip, options.meshes, options.properties.wanted, opened.notes);
+  place_normals(mesh, places_at(scene.nodes, clip, clip.first));
   const std::size_t vertices_before = mesh.positions.size();
   weld(mesh);
   note_mesh(path, mesh, vertices_before, opened.notes);
-  Metadata metadata = scene.metadata;
-  metadata.emplace("fps", rate);
-  if (!clip.name.empty() && is_plain_text(clip.name)) metadata.emplace("name", clip.name);
-  opened.source = std::make_unique<SceneSource>(path, scene.nodes, std::move(clip), std::move(mesh),
-                                                std::move(metadata), fps);
+  auto source = std::make_unique<SceneSource>(scene, std::move(clip), std::move(mesh), fps);
+  std::vector<NamedData> data;
+  if (options.properties.wanted) data = reader.read_data(options.properties.embed_textures, opened.notes);
+  source->settle(options, rate, std::move(data), opened.notes);
+  opened.source = std::move(source);
   return opened;
 }
 

@@ -13,7 +13,7 @@ SceneSummary::MeshSummary summarize_mesh(const SceneReader& reader, std::size_t 
   const Scene& scene = reader.scene();
   SceneSummary::MeshSummary mesh;
   mesh.name = scene.mesh_names[index];
-  for (const ScenePart& part : reader.read_mesh(index)) {
+  for (const ScenePart& part : reader.read_mesh(index, false)) {
     mesh.vertices += part.positions.size();
     mesh.faces += part.faces.size();
     mesh.morph_targets = std::max<std::uint64_t>(mesh.morph_targets, part.targets.size());
@@ -52,7 +52,7 @@ SceneSummary summarize_scene(const std::string& path, double fps) {
     summary.skeleton = find_moved_nodes(scene.nodes, first).skeleton;
     return summary;
   }
-  SceneMesh mesh = gather_meshes(*reader, first, {}, summary.notes);
+  SceneMesh mesh = gather_meshes(*reader, first, {}, false, summary.notes);
   for (std::size_t i = 0; i < scene.mesh_names.size(); ++i)
     summary.meshes.push_back(summarize_mesh(*reader, i));
   weld(mesh);

@@ -52,6 +52,24 @@ GltfBuilder sparse() {
   return gltf;
 }
 
+/// With attributes, materials, pictures and extras.
+GltfBuilder dressed() {
+  GltfBuilder gltf = one_triangle();
+  nlohmann::json& primitive = gltf.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["TEXCOORD_0"] = gltf.add<float>("VEC2", {0, 0, 1, 0, 0, 1});
+  primitive["attributes"]["NORMAL"] =
+      gltf.add_normalized<std::int8_t>("VEC3", {127, 0, 0, 0, 127, 0, 0, 0, 127});
+  primitive["attributes"]["COLOR_0"] =
+      gltf.add_normalized<std::uint8_t>("VEC3", {255, 0, 9, 8, 7, 6, 5, 4, 3});
+  primitive["attributes"]["_NUMBER"] = gltf.add<std::uint16_t>("SCALAR", {1, 2, 3});
+  primitive["material"] = 0;
+  gltf.json["materials"] = {{{"name", "a"}}, {{"name", "a"}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  gltf.json["images"] = {{{"bufferView", gltf.add_view("picture")}}, {{"uri", "data:image/png;base64,AAAA"}}};
+  gltf.json["nodes"][0]["extras"] = {{"key", 1}};
+  return gltf;
+}
+
 template <class T>
 std::string compressed(const std::vector<T>& values, std::size_t count) {
   const std::size_t stride = values.size() * sizeof(T) / count;
@@ -108,6 +126,7 @@ int main(int argc, char** argv) {
     write_seed(folder, "splines", splines());
     write_seed(folder, "sparse", sparse());
     write_seed(folder, "meshopt", meshopt());
+    write_seed(folder, "dressed", dressed());
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tvg_make_gltf_seeds: %s\n", error.what());

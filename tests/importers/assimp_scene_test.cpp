@@ -74,6 +74,70 @@ TEST_F(AssimpScene, OfColladaTakesNoJointsForInterpolations) {
   EXPECT_THAT(keys.counts, ElementsAre(1U));
 }
 
+/// A quad and a triangle beside it, with texture coordinates and a material that has a texture.
+std::string textured_collada() {
+  return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><up_axis>Y_UP</up_axis></asset>
+<library_images><image id="im" name="im"><init_from>bricks.png</init_from></image></library_images>
+<library_effects><effect id="e"><profile_COMMON>
+<newparam sid="su"><surface type="2D"><init_from>im</init_from></surface></newparam>
+<newparam sid="sa"><sampler2D><source>su</source></sampler2D></newparam>
+<technique sid="t"><phong><diffuse><texture texture="sa" texcoord="UV"/></diffuse>
+<emission><color>0 0.5 0 1</color></emission></phong></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="Bricks"><instance_effect url="#e"/></material></library_materials>
+<library_geometries><geometry id="g" name="Wall"><mesh>
+<source id="p"><float_array id="pa" count="15">0 0 0 1 0 0 1 1 0 0 1 0 2 0 0</float_array><technique_common>
+<accessor source="#pa" count="5" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<source id="u"><float_array id="ua" count="8">0 0 1 0 1 1 0 1</float_array><technique_common>
+<accessor source="#ua" count="4" stride="2"><param name="S" type="float"/><param name="T" type="float"/></accessor>
+</technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist material="s" count="2"><input semantic="VERTEX" source="#v" offset="0"/>
+<input semantic="TEXCOORD" source="#u" offset="1" set="0"/><vcount>4 3</vcount>
+<p>0 0 1 1 2 2 3 3 1 0 4 1 2 3</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="vs"><node id="House" name="House"><instance_geometry url="#g">
+<bind_material><technique_common><instance_material symbol="s" target="#m"/></technique_common></bind_material>
+</instance_geometry></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#vs"/></scene></COLLADA>)";
+}
+
+TEST_F(AssimpScene, BringsAttributesPolygonsPartsAndMaterials) {
+  const OpenedSource opened = open_file(folder_.write("wall.dae", textured_collada()));
+  const MeshProperties& properties = opened.source->properties();
+  EXPECT_EQ(opened.source->mesh().vertex_count, 5U);
+  EXPECT_THAT(properties.polygons, ElementsAre(Polygon{0, 4}));
+  ASSERT_EQ(properties.attributes.size(), 1U);
+  const Attribute& uv = properties.attributes[0];
+  EXPECT_EQ(uv.name, "TEXCOORD_0");
+  EXPECT_EQ(uv.domain, AttributeDomain::kCorner);
+  std::vector<float> corners;
+  for (const std::uint32_t value : uv.corners)
+    corners.insert(corners.end(), {uv.values[2 * value], uv.values[2 * value + 1]});
+  EXPECT_THAT(corners, ElementsAre(0, 0, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 0, 0, 1, 0, 0, 1));
+  ASSERT_EQ(properties.parts.size(), 1U);
+  EXPECT_EQ(properties.parts[0].object, "House");
+  EXPECT_EQ(properties.parts[0].material, "Bricks");
+  ASSERT_EQ(opened.source->data().size(), 1U);
+  const NamedData& data = opened.source->data()[0];
+  EXPECT_EQ(data.name, "materials");
+  const auto json = nlohmann::json::parse(data.bytes.begin(), data.bytes.end());
+  EXPECT_EQ(json["materials"][0]["name"], "Bricks");
+  EXPECT_EQ(json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+  EXPECT_EQ(json["images"][0]["uri"], "bricks.png");
+}
+
+TEST_F(AssimpScene, CutsPolygonsAroundACornerThatSeesAllOthers) {
+  std::string text = textured_collada();
+  // An arrow's head: of the first two corners only the one that goes in sees all others.
+  const std::string square = "0 0 0 1 0 0 1 1 0 0 1 0 2 0 0";
+  text.replace(text.find(square), square.size(), "1 -1 0 0.5 0 0 1 1 0 0 0 0 2 0 0");
+  const OpenedSource opened = open_file(folder_.write("wall.dae", text));
+  EXPECT_THAT(opened.source->properties().polygons, ElementsAre(Polygon{0, 4}));
+  EXPECT_THAT(opened.source->mesh().faces[0], Contains(1U));
+  EXPECT_THAT(opened.source->mesh().faces[1], Contains(1U));
+}
+
 std::string direct_x(const std::string& rate) {
   return "xof 0303txt 0032\n" + rate +
          "Frame n {\n FrameTransformMatrix { "

@@ -62,6 +62,7 @@ class GltfBuilder {
   template <class T>
   int add(const std::string& type, const std::vector<T>& values) {
     const std::size_t width = type == "SCALAR" ? 1
+                              : type == "VEC2" ? 2
                               : type == "VEC3" ? 3
                               : type == "VEC4" ? 4
                               : type == "MAT4" ? 16
