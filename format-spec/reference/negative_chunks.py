@@ -81,7 +81,7 @@ def head():
     yield "decoder_memory_above_63_bits", "malformed", "4.1", 0, changed(decoder_memory=2 ** 63)
     yield "meshes_none", "malformed", "4.1", 0, changed(meshes=0)
     yield "meshes_too_many", "malformed", "4.1", 0, changed(**(large | {"meshes": 65537}))
-    yield "head_unknown_odd_key", "unsupported version", "4.1", 0, changed(others={21: 1})
+    yield "head_unknown_odd_key", "unsupported version", "4.1", 0, changed(others={23: 1})
     for name, bound, value in (("plan_bytes_above_32_bits", "plan_bytes", 2 ** 32), ("plans_none", "plans", 0),
                                ("components_too_many", "components", 65536), ("plans_too_many", "plans", 257)):
         yield name, "malformed", "4.1", 0, changed(**(PLANES_BOUNDS | large | {bound: value}))
@@ -120,12 +120,12 @@ def mesh():
         "face_count_large": ("malformed", "4.3", writer.mesh(4, 2 ** 31, [part])),
         "vertices_exceeded": ("limit-exceeded", "4.1", writer.mesh(9, 1, [part])),
         "faces_exceeded": ("limit-exceeded", "4.1", writer.mesh(4, 5, [part])),
-        "mesh_bytes_exceeded": ("limit-exceeded", "4.3", writer.mesh(4, 1, [part, (2, many)])),
-        "without_connectivity": ("malformed", "4.3", writer.mesh(4, 1, [(2, b"")])),
+        "mesh_bytes_exceeded": ("limit-exceeded", "4.3", writer.mesh(4, 1, [part, (8, many)])),
+        "without_connectivity": ("malformed", "4.3", writer.mesh(4, 1, [(8, b"")])),
         "sections_descend": ("malformed", "3.5", writer.mesh(4, 1, [part, (0, b"")])),
         "section_twice": ("malformed", "3.5", writer.mesh(4, 1, [part, part])),
-        "section_beyond": ("malformed", "4.3", writer.mesh(4, 1, [part]) + varint(2) + varint(5) + b"four"),
-        "section_without_size": ("malformed", "4.3", writer.mesh(4, 1, [part]) + varint(2)),
+        "section_beyond": ("malformed", "4.3", writer.mesh(4, 1, [part]) + varint(8) + varint(5) + b"four"),
+        "section_without_size": ("malformed", "4.3", writer.mesh(4, 1, [part]) + varint(8)),
         "section_unknown": ("unsupported", "4.3", writer.mesh(4, 1, [part, (2 ** 40 + 1, b"?")])),
         "mesh_cut": ("malformed", "4.3", writer.mesh(4, 1, [part])[:1]),
     }

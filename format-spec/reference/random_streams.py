@@ -99,7 +99,7 @@ class Mesh:
             section = self.shape_section(random, faces, V)
             sections.append((5, section))
             self.shape, self.turns = reference.shape_and_turns(section, faces, V, self.levels)
-        sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 2, 4, 2 ** 40) if random.chance(15)]
+        sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 8, 10, 2 ** 40) if random.chance(15)]
         self.V, self.F = V, F
         self.payload = writer.mesh(V, F, sorted(sections))
         self.id = writer.checksum(self.payload)

@@ -248,23 +248,27 @@ class Decoder:
         while reader.at < len(payload):
             key, value = reader.varint(), reader.varint()
             require(key > last, "3.5", "keys do not ascend")
-            require(key <= 19 or key % 2 == 0, "4.1", unknown_text(key), VERSION)
+            require(key <= 21 or key % 2 == 0, "4.1", unknown_text(key), VERSION)
             bounds[key] = value
             last = key
         for key in (1, 3, 5, 7, 9, 11, 13):
             require(key in bounds, "4.1", f"key {key} is missing")
             require(bounds[key] < (2 ** 63 if key == 9 else 2 ** 32), "4.1", f"value of key {key}")
         require(1 <= bounds[11] <= 65536, "4.1", "meshes")
-        bounds = {15: 0, 17: 0, 19: 1} | bounds
+        bounds = {15: 0, 17: 0, 19: 1, 21: 0} | bounds
         require(bounds[15] < 2 ** 32, "4.1", "plan_bytes")
         require(bounds[17] <= 65535, "4.1", "components")
         require(1 <= bounds[19] <= 256, "4.1", "plans")
+        require(bounds[21] < 2 ** 32, "4.1", "property_bytes")
         self.vertices, self.faces, self.frames_per_gop, self.packet_bytes = (bounds[key] for key in (1, 3, 5, 7))
         self.meshes_in_force, self.mesh_bytes = bounds[11], bounds[13]
         self.plan_bytes, self.components, self.plans_in_force = bounds[15], bounds[17], bounds[19]
+        self.property_bytes = bounds[21]
         # 8.2 Memory
         memory = 2 ** 20 + 160 * self.vertices + 96 * self.faces + 4 * self.packet_bytes + self.mesh_bytes
         memory += (self.meshes_in_force - 1) * (512 + 24 * self.vertices + 16 * self.faces)
+        if self.property_bytes > 0:
+            memory += (self.meshes_in_force + 1) * self.property_bytes + 192 * self.vertices + 512 * self.faces
         shapes = (400 + 128 * self.meshes_in_force) * self.vertices + 96 * self.faces
         planes = self.plans_in_force * (4096 + self.components * (64 + 4 * self.vertices) + 8 * self.vertices)
         planes += self.plan_bytes + 128 * self.vertices + 1536 * self.components

@@ -64,14 +64,15 @@ def chunk(kind, payload, flags=None):
 
 # 4.1 HEAD
 KEYS = {"vertices": 1, "faces": 3, "frames_per_gop": 5, "packet_bytes": 7, "decoder_memory": 9, "meshes": 11,
-        "mesh_bytes": 13, "plan_bytes": 15, "components": 17, "plans": 19}
+        "mesh_bytes": 13, "plan_bytes": 15, "components": 17, "plans": 19, "property_bytes": 21}
 
-def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, plan_bytes=0, components=0, plans=1, shapes=False, lods=False,
-           **_):
+def memory(vertices, faces, packet_bytes, meshes, mesh_bytes, plan_bytes=0, components=0, plans=1, property_bytes=0,
+           shapes=False, lods=False, **_):
     """8.2 Memory. shapes, lods: whether meshes have reference shapes, coarse meshes."""
     planes = plan_bytes + plans * (4096 + components * (64 + 4 * vertices) + 8 * vertices) + 128 * vertices + 1536 * components
     return (2 ** 20 + 160 * vertices + 96 * faces + 4 * packet_bytes + mesh_bytes
             + (meshes - 1) * (512 + 24 * vertices + 16 * faces)
+            + ((meshes + 1) * property_bytes + 192 * vertices + 512 * faces if property_bytes else 0)
             + (vertices * (400 + 128 * meshes) + 96 * faces if shapes or lods or plan_bytes else 0)
             + (planes if plan_bytes else 0)
             + (plans * plan_bytes + 2 ** 18 + vertices * (64 + 16 * meshes) + faces * (96 + 16 * meshes) if lods else 0))
