@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """A second decoder of TVG streams, written from format-spec/tvg.md alone: slow, plain and strict.
 
-It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py, §5.5 and §5.6 in tvg_levels.py, §7.8 in tvg_basis.py and
-tvg_rows.py, §7.9 in tvg_lossless.py). It does not recover from damage (§8.3): the first violation ends a stream.
+It follows the order of the specification and uses its names (§5.4 is in tvg_pyramid.py, §5.5 and §5.6 in tvg_levels.py, §5.7 to §5.9 in
+tvg_properties.py and what that imports, §7.8 in tvg_basis.py and tvg_rows.py, §7.9 in tvg_lossless.py). It does not recover from damage (§8.3): the first violation ends a stream.
 Python 3, standard library only.
 
     python3 tvg_reference.py FILE.tvg...
 
 prints for each stream what corpus/conformance/digests.txt has of it: its name; its bytes; its frames; the vertices and
 the faces of its meshes, summed; and the XXH64 of all lattice indices (i32), positions (binary32) and faces (u32) in
-output order (of what stands for indices in other modes than elp). A mesh counts when a frame has other faces or another number of vertices than the frame before it.
+output order (of what stands for indices in other modes than elp), and of its meshes' properties (§5.7). A mesh counts when a frame has other faces or another number of vertices than the frame before it.
 
     python3 tvg_reference.py --check FILE.tvg...
 
@@ -28,6 +28,7 @@ from collections import deque
 from tvg_basis import Basis, BasisFrames  # 7.8
 from tvg_levels import levels_of, lods_of  # 5.5, 5.6
 from tvg_lossless import LosslessFrames, line_of  # 7.9
+from tvg_properties import Properties  # 5.7 to 5.9
 from tvg_pyramid import pyramid  # 5.4
 
 class Invalid(Exception):
@@ -152,7 +153,7 @@ class Mesh:
         self.turns = turns  # of the pyramid (5.4); None without a reference shape
         self.shape = shape  # lattice indices, origin and step; None without one
         self.levels, self.lods, self.lod = levels, lods, 0
-        self.drawn = range(V)
+        self.drawn, self.properties = range(V), b""  # of the whole mesh, as digests.txt has them
 
     def draw(self, vertices, faces):
         """What is given out: these vertices, in output order, with these faces, all in traversal indices."""
@@ -184,10 +185,11 @@ class Decoder:
         self.index = []  # what INDX should hold: (kind, offset of the chunk, fields)
         self.shown, self.shown_vertices, self.shown_faces = None, 0, 0  # the mesh of the last frame; sums
         self.face_bytes, self.index_bytes, self.position_bytes = bytearray(), bytearray(), bytearray()
+        self.shown_properties = bytearray()
 
     def facts(self):
         """What digests.txt says of the stream, without its name."""
-        hashed = self.index_bytes, self.position_bytes, self.face_bytes
+        hashed = self.index_bytes, self.position_bytes, self.face_bytes, self.shown_properties
         digests = [f"{xxh64(bytes(values)):016x}" for values in hashed]
         return " ".join(map(str, (len(self.data), self.frames, self.shown_vertices, self.shown_faces, *digests)))
 
@@ -319,7 +321,7 @@ class Decoder:
             last = kind
         require(1 in sections, "4.3", "no connectivity")
         for kind in sections:
-            require(kind in (1, 3, 5, 7, 9) or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
+            require(kind < 10 or kind % 2 == 0, "4.3", unknown_text(kind), "unsupported")
         require(5 not in sections or self.room_for_shapes, "8.2", "decoder_memory is too little for shapes",
                 "limit-exceeded")
         require(9 not in sections or 7 in sections, "5.6", "coarse meshes without levels")
@@ -334,6 +336,10 @@ class Decoder:
         turns = shape = None
         if 5 in sections:
             shape, turns = shape_and_turns(sections[5], faces, V, levels)
+        properties = None
+        if sections.keys() & {2, 4, 6}:
+            properties = Properties(sections, faces, V, shape, self.property_bytes, sys.modules[__name__])
+            faces = properties.faces()
         mesh = Mesh(V, gates, order, turns, shape, levels, lods)
         mesh.lod = min(self.lod, len(lods))
         if mesh.lod > 0:
@@ -341,6 +347,7 @@ class Decoder:
             mesh.draw(lod.vertices, lod.faces(sys.modules[__name__]))
         else:
             mesh.draw(range(V), faces)
+            mesh.properties = properties.dump(mesh.drawn) if properties else b""
         return mesh
 
     def entries(self, kind):
@@ -409,6 +416,8 @@ class Decoder:
             self.shown_vertices += mesh.V
             self.shown_faces += len(mesh.faces)
             self.face_bytes += b"".join(struct.pack("<3I", *face) for face in mesh.faces)
+        if mesh.properties != (self.shown.properties if self.shown else b""):
+            self.shown_properties += mesh.properties
         for v in mesh.drawn:
             index, at = frames.given_out(v)
             self.index_bytes += struct.pack("<3i", *index)

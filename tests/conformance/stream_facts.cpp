@@ -3,6 +3,7 @@
 #include "base/bits.hpp"
 #include "base/checksum.hpp"
 
+#include <array>
 #include <cstdio>
 #include <iomanip>
 #include <sstream>
@@ -20,6 +21,40 @@ void add(Hasher& hasher, const auto& values) {
   hasher.update(words);
 }
 
+void add_number(Hasher& hasher, std::size_t number) {
+  add(hasher, std::array{static_cast<std::uint32_t>(number)});
+}
+
+void add_text(Hasher& hasher, const std::string& text) {
+  add_number(hasher, text.size());
+  hasher.update(std::vector<std::uint8_t>(text.begin(), text.end()));
+}
+
+void add(Hasher& hasher, const MeshProperties& properties) {
+  if (properties.empty()) return;
+  add_number(hasher, properties.attributes.size());
+  for (const Attribute& attribute : properties.attributes) {
+    add_number(hasher, static_cast<std::size_t>(attribute.kind));
+    add_number(hasher, static_cast<std::size_t>(attribute.domain));
+    add_number(hasher, attribute.components);
+    add_number(hasher, static_cast<std::size_t>(attribute.bits));
+    add_text(hasher, attribute.name);
+    add_number(hasher, attribute.value_count());
+    add(hasher, attribute.values);
+    add(hasher, attribute.corners);
+  }
+  add_number(hasher, properties.parts.size());
+  for (const Part& part : properties.parts) {
+    for (const std::string* const name : {&part.object, &part.group, &part.material}) add_text(hasher, *name);
+  }
+  add(hasher, properties.face_parts);
+  add_number(hasher, properties.polygons.size());
+  for (const Polygon& polygon : properties.polygons) {
+    add_number(hasher, polygon.first_triangle);
+    add_number(hasher, polygon.corners);
+  }
+}
+
 }  // namespace
 
 Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std::uint32_t lod) {
@@ -30,7 +65,8 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std:
   StreamFacts facts;
   facts.bytes = stream.size();
   Mesh shown;
-  Hasher lattice, positions, faces;
+  MeshProperties shown_properties;
+  Hasher lattice, positions, faces, properties;
   std::vector<std::int32_t> indices;
   std::vector<float> coordinates;
   for (;;) {
@@ -44,6 +80,10 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std:
           for (const Face& face : shown.faces) add(faces, face);
           indices.resize(3 * std::size_t{shown.vertex_count});
           coordinates.resize(indices.size());
+        }
+        if (decoder.properties() != shown_properties) {
+          shown_properties = decoder.properties();
+          add(properties, shown_properties);
         }
         ++facts.frames;
         decoder.copy_lattice(indices);
@@ -61,6 +101,7 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std:
         facts.lattice_digest = lattice.value();
         facts.positions_digest = positions.value();
         facts.faces_digest = faces.value();
+        facts.properties_digest = properties.value();
         return facts;
       default:
         break;
@@ -73,7 +114,8 @@ std::string lod_name(const std::string& stream, std::uint32_t lod) {
 }
 
 std::string facts_heading() {
-  return "# stream bytes frames vertices faces xxh64(lattice) xxh64(positions) xxh64(faces)";
+  return "# stream bytes frames vertices faces xxh64(lattice) xxh64(positions) xxh64(faces) "
+         "xxh64(properties)";
 }
 
 std::string facts_line(const NamedFacts& entry) {
@@ -81,7 +123,8 @@ std::string facts_line(const NamedFacts& entry) {
   std::ostringstream line;
   line << entry.name << ' ' << facts.bytes << ' ' << facts.frames << ' ' << facts.vertices << ' '
        << facts.faces << std::hex << std::setfill('0');
-  for (const std::uint64_t digest : {facts.lattice_digest, facts.positions_digest, facts.faces_digest}) {
+  for (const std::uint64_t digest :
+       {facts.lattice_digest, facts.positions_digest, facts.faces_digest, facts.properties_digest}) {
     line << ' ' << std::setw(16) << digest;
   }
   return line.str();
@@ -95,7 +138,7 @@ std::vector<NamedFacts> read_facts(std::istream& file) {
     NamedFacts entry;
     StreamFacts& facts = entry.facts;
     cells >> entry.name >> facts.bytes >> facts.frames >> facts.vertices >> facts.faces >> std::hex >>
-        facts.lattice_digest >> facts.positions_digest >> facts.faces_digest;
+        facts.lattice_digest >> facts.positions_digest >> facts.faces_digest >> facts.properties_digest;
     if (cells) entries.push_back(entry);
   }
   return entries;

@@ -17,6 +17,7 @@ struct StreamFacts {
   std::uint64_t lattice_digest = 0;       ///< int32 indices of every frame, [frame][vertex][xyz]
   std::uint64_t positions_digest = 0;     ///< float32 coordinates of every frame, [frame][vertex][xyz]
   std::uint64_t faces_digest = 0;         ///< uint32 corners of every mesh, [mesh][face][corner]
+  std::uint64_t properties_digest = 0;    ///< attributes, parts and polygons, as corpus/manifest.md says
 
   bool operator==(const StreamFacts&) const = default;
 };
