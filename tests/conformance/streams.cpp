@@ -4,14 +4,13 @@
 #include "container/gop_header.hpp"
 #include "container/head.hpp"
 #include "container/stream_writer.hpp"
-#include "corpus/corpus.hpp"
+#include "property_streams.hpp"
+#include "stream_toolbox.hpp"
 #include "tests/codec/levels_toolbox.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include <tvg/encoder.hpp>
@@ -19,13 +18,6 @@
 namespace tvg::conformance {
 
 namespace {
-
-using Stream = std::vector<std::uint8_t>;
-
-[[noreturn]] void stop(const std::string& message) {
-  std::fprintf(stderr, "conformance stream: %s\n", message.c_str());
-  std::abort();
-}
 
 /// A source that stands for a pipe: no length, no way back.
 class PipeSource final : public SourceDecorator {
@@ -36,49 +28,6 @@ class PipeSource final : public SourceDecorator {
   std::optional<std::uint64_t> frame_count() const override { return std::nullopt; }
   bool rewind() override { return false; }
 };
-
-Stream encode_source(FrameSource& source, const EncodeOptions& options) {
-  Stream stream;
-  const auto report = encode(source, options, [&stream](std::span<const std::uint8_t> bytes) {
-    stream.insert(stream.end(), bytes.begin(), bytes.end());
-    return Status();
-  });
-  if (!report) stop(report.error().describe());
-  return stream;
-}
-
-Stream encode_sequence(const Sequence& sequence, const EncodeOptions& options) {
-  SequenceSource source(sequence);
-  return encode_source(source, options);
-}
-
-Sequence corpus_sequence(std::string_view name, std::uint32_t frames) {
-  const corpus::CorpusEntry* entry = corpus::find_corpus_entry(name);
-  if (entry == nullptr) stop("no sequence " + std::string(name));
-  Sequence sequence = entry->make({100, frames}).sequence;
-  sequence.metadata.clear();  // bytes that every stream would repeat
-  return sequence;
-}
-
-EncodeOptions options_of(int fine_bits, int coarse_bits, Predictor predictor, std::uint32_t gop_frames) {
-  EncodeOptions options;
-  options.fine_bits = fine_bits;
-  options.coarse_bits = coarse_bits;
-  options.predictor = predictor;
-  options.gop_frames = gop_frames;
-  return options;
-}
-
-/// One triangle that turns and grows a little in each frame, beside a vertex of no face.
-Sequence triangle(std::uint32_t frames) {
-  Sequence sequence;
-  sequence.mesh = {4, {{0, 1, 2}}};
-  for (std::uint32_t f = 0; f < frames; ++f) {
-    const float t = static_cast<float>(f) / 8;
-    sequence.frames.push_back({0, 0, t, 1, t, 0, t * t, 1 + t, 0.5F, -1, -t, 2});
-  }
-  return sequence;
-}
 
 /// Limits that hold for all of these streams.
 StreamLimits joint_limits(const std::vector<Stream>& streams) {
@@ -348,6 +297,15 @@ const std::vector<ConformanceStream>& conformance_streams() {
          return join({make_uniform("cloth", 2, 5, Predictor::kElp), make_basis(4, 4, 5, 5), make_step()});
        },
        false},
+      {"attributes", "all kinds of attributes, with seams; parts and polygons; several frames and no shape",
+       make_attributes},
+      {"attributes_shape", "the same with a reference shape", make_attributes_shape},
+      {"attributes_exact", "attributes of which every bit comes back, in mode lossless",
+       make_attributes_exact},
+      {"attributes_soup",
+       "attributes, parts and polygons of all that a mesh can do wrong, its order given up",
+       make_attributes_soup},
+      {"shape", "frames by the shape, each of a mesh of its own, with polygons", make_shape},
       {"meshes_again", "two meshes in force, meshes that come again", make_meshes_again},
       {"unknown_chunk", "an ancillary chunk of a type that nobody knows",
        [] {
