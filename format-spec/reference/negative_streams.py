@@ -15,6 +15,7 @@ import negative_chunks
 import negative_gops
 import negative_levels
 import negative_lossless
+import negative_properties
 import negative_pyramid
 
 def cases():
@@ -25,6 +26,7 @@ def cases():
     yield from negative_lossless.cases()
     yield from negative_basis.cases()
     yield from negative_levels.cases()
+    yield from negative_properties.cases()
 
 def main(arguments):
     if len(arguments) != 1:

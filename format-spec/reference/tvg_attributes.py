@@ -78,7 +78,7 @@ class Attribute:
                         queues[standing[u]].append(u)
 
 def attributes_of(data, surface, P, room, coding):
-    """The attributes of a section; room: what they may count for."""
+    """The attributes of a section, and what they count for, which is at most room."""
     reader = coding.Reader(data, "5.7")
     count = reader.varint()
     coding.require(1 <= count <= 64, "5.7", "number of attributes")
@@ -90,4 +90,4 @@ def attributes_of(data, surface, P, room, coding):
         attribute.read_wedges(coder, surface, P, earlier, coding)
         attribute.read_values(coder, surface, coding)
     coder.finish()
-    return attributes
+    return attributes, cost

@@ -3,7 +3,7 @@ from tvg_corners import next_of, prev_of
 
 class Parts:
     """5.8: names are triples of object, group and material; face_parts: the part of each face, in the order of 5.1."""
-    def __init__(self, data, surface, coding):
+    def __init__(self, data, surface, room, coding):
         reader = coding.Reader(data, "5.8")
         self.coding, self.new = coding, []
         P = reader.varint()
@@ -12,6 +12,8 @@ class Parts:
         for _ in range(P):
             last = tuple(self.name(reader, before) for before in last)
             self.names.append(last)
+        self.cost = sum(192 + sum(map(len, names)) for names in self.names) + 4 * surface.F  # of the bound of 5.7
+        coding.require(self.cost <= room, "5.8", "more than property_bytes", "limit-exceeded")
         self.face_parts = [0] * surface.F
         if P > 1:
             coder = coding.RangeDecoder(reader.rest(), "5.8")
@@ -32,10 +34,6 @@ class Parts:
         self.coding.text(name, "5.8")
         self.new.append(name)
         return name
-
-    def cost(self):
-        """Of the bound of 5.7."""
-        return sum(192 + sum(map(len, names)) for names in self.names) + 4 * len(self.face_parts)
 
 def uniform(coder, bound):
     """5.2.2."""
@@ -76,7 +74,7 @@ def part_of_faces(coder, P, surface, coding):
 
 class Fans:
     """5.9: fans, each a list of the apexes of its faces in their order."""
-    def __init__(self, data, surface, coding):
+    def __init__(self, data, surface, room, coding):
         self.surface, self.require = surface, coding.require
         self.coder = coding.RangeDecoder(data, "5.9")
         self.coarse, self.fine = [coding.Symbol(7) for _ in range(63)], [coding.Symbol(7) for _ in range(343)]
@@ -86,10 +84,8 @@ class Fans:
             if self.role[3 * f] == 1:
                 self.fans.append(self.fan(f))
         self.coder.finish()
-
-    def cost(self):
-        """Of the bound of 5.7."""
-        return 16 * sum(len(fan) > 1 for fan in self.fans)
+        cost = 16 * sum(len(fan) > 1 for fan in self.fans)  # of the bound of 5.7
+        coding.require(cost <= room, "5.9", "more than property_bytes", "limit-exceeded")
 
     def across(self, h):
         g = self.surface.partner[h]

@@ -9,12 +9,11 @@ class Properties:
     """sections: those of the mesh by kind; room: property_bytes (4.1)."""
     def __init__(self, sections, faces, V, shape, room, coding):
         self.surface = surface = Surface(faces, V, shape, coding)
-        self.parts = Parts(sections[2], surface, coding) if 2 in sections else None
-        self.fans = Fans(sections[6], surface, coding) if 6 in sections else None
-        cost = (self.parts.cost() if self.parts else 0) + (self.fans.cost() if self.fans else 0)
-        coding.require(cost <= room, "5.7", "more than property_bytes", "limit-exceeded")
+        self.parts = Parts(sections[2], surface, room, coding) if 2 in sections else None
+        room -= self.parts.cost if self.parts else 0
         P = len(self.parts.names) if self.parts else 0
-        self.attributes = attributes_of(sections[4], surface, P, room - cost, coding) if 4 in sections else []
+        self.attributes, cost = attributes_of(sections[4], surface, P, room, coding) if 4 in sections else ([], 0)
+        self.fans = Fans(sections[6], surface, room - cost, coding) if 6 in sections else None
 
     def apexes(self):
         """The first corner of each face, in the order in which they are given out (5.9)."""
