@@ -5,13 +5,14 @@
 
 writes the streams of the seeds to FOLDER/random_SEED.tvg. The same seed gives the same bytes everywhere. Seeds from
 1000 on have GOPs in mode lossless, too; those from 2000 on have plans and GOPs in mode basis, and those from 3000 on
-meshes with levels and coarse meshes.
+meshes with levels and coarse meshes, and those from 4000 on attributes, parts and polygons.
 """
 import os
 import sys
 
 import tvg_basis
 import tvg_basis_writer as basis_writer
+import tvg_properties_writer as properties_writer
 import tvg_reference as reference
 import tvg_writer as writer
 from tvg_reference import ELP, PYRAMID, ROWS, SPACE, TIME, clamp
@@ -69,7 +70,7 @@ def row_chooser(random, plan):
 
 class Mesh:
     """A random mesh: payload, id, and what frames need to know of it."""
-    def __init__(self, random, with_levels=False):
+    def __init__(self, random, with_levels=False, with_properties=False):
         extreme = random.below(8)
         if extreme == 0:
             V, F = 1, random.below(2)
@@ -99,6 +100,10 @@ class Mesh:
             section = self.shape_section(random, faces, V)
             sections.append((5, section))
             self.shape, self.turns = reference.shape_and_turns(section, faces, V, self.levels)
+        self.property_bytes = 0
+        if with_properties and random.chance(80):
+            more, self.property_bytes = properties_writer.random_properties(random, faces, V, self.shape)
+            sections += more
         sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 8, 10, 2 ** 40) if random.chance(15)]
         self.V, self.F = V, F
         self.payload = writer.mesh(V, F, sorted(sections))
@@ -175,7 +180,7 @@ class RandomStream:
     """One stream. Chunks are planned first, since HEAD bounds them."""
     def __init__(self, seed):
         self.random, self.lossless = Random(seed), seed >= 1000
-        self.meshes = [Mesh(self.random, seed >= 3000) for _ in range(self.random.between(1, 3))]
+        self.meshes = [Mesh(self.random, seed >= 3000, seed >= 4000) for _ in range(self.random.between(1, 3))]
         self.window = self.random.between(1, 3)
         self.label = self.random.pick((0, 0, 17, 2 ** 62))
         self.bases = [Basis(self.random, mesh) for mesh in self.meshes if mesh.turns and seed >= 2000
@@ -193,6 +198,9 @@ class RandomStream:
             "meshes": self.window,
             "mesh_bytes": max(len(mesh.payload) for mesh in self.meshes) + random.below(3),
         }
+        property_bytes = max(mesh.property_bytes for mesh in self.meshes)
+        if property_bytes > 0:
+            bounds["property_bytes"] = property_bytes + random.below(3)
         plans = [payload for kind, payload, _ in body if kind == b"PLAN"]
         if plans:
             bounds |= {"plan_bytes": max(map(len, plans)) + random.below(3), "components": random.below(100),

@@ -47,7 +47,8 @@ class Values:
         for k, m in enumerate(missed):
             usual[k] = usual[k] + (m - usual[k]) * 0.05
 
-    def grid_residual(self, w, c, beside, lost, spread, kind, alone):
+    def grid_residual(self, w, c, _predicted, beside, lost, spread, kind, alone):
+        """(Who writes values needs what is predicted to choose one.)"""
         thirds256, running, size = self.coding.thirds256, self.running[c], self.size[w]
         around = 256 * sum(self.size[u][c] for u in beside) // len(beside) if beside else running
         same = around if c == 0 else 256 * sum(size[:c]) // c
@@ -94,7 +95,7 @@ class Fields(Values):
             predicted = math.floor(y + 0.5)
             lost = math.trunc((y - predicted) * 16)
             spread = summed(share * abs(value[c] - m[c]) for share, value in zip(credit, G))
-            i = predicted + self.grid_residual(w, c, beside, lost, spread, kind, wings == 0)
+            i = predicted + self.grid_residual(w, c, predicted, beside, lost, spread, kind, wings == 0)
             self.require(0 <= i <= self.L, "an integer outside the grid")
             integers.append(i)
         self.keep(w, integers)
@@ -116,19 +117,24 @@ class Fields(Values):
         self.last = self.x[w]
 
     def exact_number(self, w, c, m, beside):
-        number = ordered(bits_of(binary32(m))) + self.exact_residual(w, c, beside)
+        predicted = ordered(bits_of(binary32(m)))
+        number = predicted + self.exact_residual(predicted, *self.exact_models(w, c, beside))
         number = (number + 2 ** 31) % 2 ** 32 - 2 ** 31
         self.require(-1 - 0x7F7FFFFF <= number <= 0x7F7FFFFF, "a number that is not finite")
         return number
 
-    def exact_residual(self, w, c, beside):
-        """5.7.6."""
-        coder, before = self.coder, self.size[w][c - 1] if c > 0 else 33
+    def exact_models(self, w, c, beside):
+        """5.7.6: what a residual is coded with, and the sizes that it joins."""
+        before = self.size[w][c - 1] if c > 0 else 33
         mean = sum(self.size[u][c] for u in beside) // len(beside) if beside else 33
         base = mean if mean < 33 else before if before < 33 else 24
-        s = coder.symbol(self.by_mean[mean], self.by_before[before])
+        return base, (self.by_mean[mean], self.by_before[before]), self.size[w]
+
+    def exact_residual(self, _predicted, base, models, sizes):
+        coder = self.coder
+        s = coder.symbol(*models)
         length = clamp(coder.raw(6) if s in (0, 15) else base - 9 + s, 0, 32)
-        self.size[w].append(length)
+        sizes.append(length)
         if length == 0:
             return 0
         negative = coder.bit(self.sign[length])
@@ -256,7 +262,7 @@ class Normals(Values):
             y = M[i + 1] / a * m if a > 0 else 0.0
             predicted = math.floor(y + 0.5)
             lost = math.trunc((y - predicted) * 16)
-            r = self.grid_residual(w, i, beside, lost, spread, min(len(beside), 3), False)
+            r = self.grid_residual(w, i, predicted, beside, lost, spread, min(len(beside), 3), False)
             self.require(abs(r) <= m, "a residual of a normal")
             q.append(predicted + r)
             q[i] += (self.L + 1) * ((q[i] < -m) - (q[i] > m))

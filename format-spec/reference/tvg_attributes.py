@@ -12,6 +12,8 @@ VERTICES, CORNERS, PARTS = range(3)
 
 class Attribute:
     """An attribute: its head, then `values` (tuples of binary32 numbers), of wedges by their numbers, and `wedge`."""
+    FIELDS, NORMALS = values.Fields, values.Normals
+
     def __init__(self, reader, coding):
         def require(condition, what):
             coding.require(condition, "5.7", what)
@@ -49,7 +51,7 @@ class Attribute:
                 self.corners_of[w].append(c)
 
     def read_values(self, coder, surface, coding):
-        kind = values.Normals if self.octahedral else values.Fields
+        kind = self.NORMALS if self.octahedral else self.FIELDS
         decoder = kind(self, coder, surface, coding)
         self.decoded = [False] * self.W
         for w in self.order():

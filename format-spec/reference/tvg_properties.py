@@ -35,7 +35,9 @@ class Properties:
 
     def dump(self, drawn):
         """What digests.txt covers of them (see corpus/manifest.md); drawn: the vertices in output order."""
-        data = bytearray()
+        data, polygons = bytearray(), list(self.polygons())
+        if not (self.attributes or self.parts or polygons):
+            return b""
 
         def put(*numbers):
             data.extend(struct.pack(f"<{len(numbers)}I", *numbers))
@@ -62,7 +64,6 @@ class Properties:
                 for name in names:
                     put_text(name)
             put(*(self.parts.face_parts[p // 3] for p in self.apexes()))
-        polygons = list(self.polygons())
         put(len(polygons))
         for polygon in polygons:
             put(*polygon)
