@@ -17,9 +17,10 @@ bool exhaustive() {
 
 std::vector<std::string_view> damaged_streams() {
   if (!exhaustive())
-    return {"metadata",      "step",           "hybrid_time", "gops",       "two_meshes",
-            "meshes_again",  "pyramid_hybrid", "lossless",    "basis",      "basis_hybrid",
-            "unknown_chunk", "levels",         "lods@1",      "lods_basis", "lods_basis@1"};
+    return {"metadata",         "step",           "hybrid_time", "gops",       "two_meshes",
+            "meshes_again",     "pyramid_hybrid", "lossless",    "basis",      "basis_hybrid",
+            "unknown_chunk",    "levels",         "lods@1",      "lods_basis", "lods_basis@1",
+            "attributes_shape", "shape"};
   std::vector<std::string_view> names;
   for (const auto& stream : conformance::conformance_streams()) names.push_back(stream.name);
   return names;
