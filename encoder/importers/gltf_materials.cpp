@@ -99,14 +99,14 @@ class DataReader {
       notes_.push_back(fmt::format("{}: {} shares bytes with others and is left out", path_, what));
       return std::nullopt;
     }
-    const std::optional<std::string> name = add_image(what, image, {bytes.begin(), bytes.end()});
+    std::optional<std::string> name = add_image(what, image, {bytes.begin(), bytes.end()});
     if (name) of_view_.emplace(view, *name);
     return name;
   }
 
   std::optional<std::string> add_image(const std::string& what, const Json& image,
                                        std::vector<std::uint8_t> bytes) {
-    const std::optional<std::string> name = images_.add(text_of(image, "name"), std::move(bytes));
+    std::optional<std::string> name = images_.add(text_of(image, "name"), std::move(bytes));
     if (!name) {
       notes_.push_back(
           fmt::format("{}: {} is larger than {} MiB and left out", path_, what, kMostDataBytes >> 20));

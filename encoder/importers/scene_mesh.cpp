@@ -72,7 +72,7 @@ void SceneMesh::pose(const std::vector<Transform>& global, const std::vector<dou
 void place_normals(SceneMesh& mesh, const std::vector<Transform>& global) {
   std::vector<Eigen::Matrix3d> linear;
   for (const Carrier& carrier : mesh.carriers)
-    linear.push_back((global[carrier.node] * carrier.offset).linear());
+    linear.emplace_back((global[carrier.node] * carrier.offset).linear());
   for (Attribute& attribute : mesh.properties.attributes) {
     if (attribute.kind != AttributeKind::kNormal) continue;
     for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
