@@ -1,13 +1,18 @@
 # Short names for what one does most; the work is in CMakePresets.json and scripts/.
-# WERROR=ON makes warnings errors; FUZZ_SECONDS is how long each fuzz target runs; LINT lists folders for clang-tidy.
+# WERROR=ON makes warnings errors; FUZZ_SECONDS is how long each fuzz target runs; LINT lists folders for clang-tidy,
+# and LINT_CHECKS what is added to its checks or, with a minus, left out; OPTIONS go to CMake.
 WERROR ?= OFF
 FUZZ_SECONDS ?= 60
-LINT ?= libcodec tool encoder decoder player server cli
+LINT = libcodec tool encoder decoder player server cli
+LINT_CHECKS ?=
+OPTIONS ?=
+# Configurations of scripts/check_portability.sh; all where empty.
+PORTABILITY ?=
 # Folders of tests to run under sanitizers; all where empty.
 SANITIZE ?=
 
 SOURCES = $(wildcard $(shell git ls-files --cached --others --exclude-standard "*.c" "*.cpp" "*.h" "*.hpp"))
-CONFIGURE = cmake -DTVG_WARNINGS_AS_ERRORS=$(WERROR) --preset
+CONFIGURE = cmake -DTVG_WARNINGS_AS_ERRORS=$(WERROR) $(OPTIONS) --preset
 # Progress is for terminals: elsewhere only what goes wrong is printed.
 define BUILD
 @if [ -t 1 ]; then cmake --build $(1) $(2); else cmake --build $(1) $(2) -- --quiet; fi
@@ -53,7 +58,7 @@ check-format:
 lint:
 	@scripts/install_packages.sh build check
 	@$(CONFIGURE) release >/dev/null
-	@scripts/run_tidy.sh build/release $(LINT)
+	@LINT_CHECKS="$(LINT_CHECKS)" scripts/run_tidy.sh build/release $(LINT)
 
 sanitize:
 	@scripts/install_packages.sh build test
@@ -71,7 +76,7 @@ fuzz:
 # The decoder with other compilers and on other machines.
 portability:
 	@scripts/install_packages.sh portability
-	@WERROR=$(WERROR) scripts/check_portability.sh
+	@WERROR=$(WERROR) scripts/check_portability.sh $(PORTABILITY)
 
 clean:
 	@rm -rf build
