@@ -213,26 +213,38 @@ void fit_rows(const Trajectories& trajectories, const Coefficients& coefficients
 }
 
 void measure_errors(const Trajectories& trajectories, const Coefficients& coefficients, FittedBasis& fitted) {
-  const Eigen::MatrixXf planes = quantized(coefficients, fitted);
+  constexpr Eigen::Index kColumnsAtOnce = 64;
+  const Eigen::MatrixXd planes = quantized(coefficients, fitted).cast<double>();
+  const Eigen::VectorXd weights = trajectories.weights.cast<double>();
   const std::size_t row_count = fitted.scales.size();
   const auto value = [&](std::size_t row, std::size_t i) {
     const double unit =
         std::ldexp(static_cast<double>(RowScale{fitted.scales[row]}.factor()), -fitted.fraction_bits);
     return unit * fitted.rows[3 * (i / 3 * row_count + row) + i % 3];
   };
-  Eigen::MatrixXf fitting(planes.cols(), trajectories.weighted.cols());
-  Eigen::RowVectorXf missed_means(fitting.cols());
-  for (Eigen::Index i = 0; i < fitting.cols(); ++i) {
-    const auto column = static_cast<std::size_t>(i);
-    missed_means(i) = static_cast<float>(trajectories.mean[column] - fitted.step * value(0, column));
-    for (Eigen::Index a = 0; a < fitting.rows(); ++a)
-      fitting(a, i) = static_cast<float>(value(static_cast<std::size_t>(a) + 1, column));
+  fitted.squared_error = 0;
+  fitted.largest_error = 0;
+  const Eigen::Index columns = trajectories.weighted.cols();
+  for (Eigen::Index first = 0; first < columns; first += kColumnsAtOnce) {
+    const Eigen::Index count = std::min(kColumnsAtOnce, columns - first);
+    Eigen::MatrixXd fitting(planes.cols(), count);
+    Eigen::RowVectorXd missed_means(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const auto column = static_cast<std::size_t>(first + i);
+      missed_means(i) = trajectories.mean[column] - fitted.step * value(0, column);
+      for (Eigen::Index a = 0; a < fitting.rows(); ++a)
+        fitting(a, i) = value(static_cast<std::size_t>(a) + 1, column);
+    }
+    Eigen::MatrixXd rest = trajectories.weighted.middleCols(first, count).cast<double>();
+    if (planes.cols() > 0) rest.noalias() -= planes * fitting;
+    rest.noalias() += weights * missed_means;
+    fitted.squared_error += rest.squaredNorm();
+    fitted.largest_error = std::max(fitted.largest_error, rest.cwiseAbs().maxCoeff());
   }
-  Eigen::MatrixXf rest = trajectories.weighted;
-  if (planes.cols() > 0) rest.noalias() -= planes * fitting;
-  rest.noalias() += trajectories.weights * missed_means;
-  fitted.squared_error = rest.cast<double>().squaredNorm();
-  fitted.largest_error = double{rest.cwiseAbs().maxCoeff()};
+  // Trajectories and planes are float32: what they were rounded by counts, since the decoder's sums are
+  // exact.
+  constexpr double kRounding = 0x1p-22;
+  fitted.largest_error += kRounding * double{trajectories.weighted.cwiseAbs().maxCoeff()};
 }
 
 }  // namespace tvg

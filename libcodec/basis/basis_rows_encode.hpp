@@ -33,7 +33,8 @@ std::size_t row_bytes(const FittedBasis& fitted);
 void fit_rows(const Trajectories& trajectories, const Coefficients& coefficients, const Eigen::MatrixXf& rows,
               const CoefficientQuality& quality, FittedBasis& fitted);
 
-/// Measures what a basis misses that has its rows: `squared_error` and `largest_error`.
+/// Measures what a basis misses that has its rows: `squared_error`, and a bound of `largest_error` that is
+/// above it by rounding alone.
 void measure_errors(const Trajectories& trajectories, const Coefficients& coefficients, FittedBasis& fitted);
 
 }  // namespace tvg
