@@ -178,6 +178,12 @@ LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata)
   return input;
 }
 
+/// To three digits, so that what is said of a bound stays one.
+double rounded_up(double bound) {
+  const double unit = std::pow(10, std::floor(std::log10(bound)) - 2);
+  return std::ceil(bound / unit) * unit;
+}
+
 void print_report(const EncodeArguments& arguments, const EncodeReport& report) {
   if (report.box_of_each_gop && !arguments.live) {
     fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
@@ -200,7 +206,7 @@ void print_report(const EncodeArguments& arguments, const EncodeReport& report) 
       report.gops, readable_bytes(report.bytes), bits_per_coordinate(report.bytes, report.vertex_frames, 1),
       12 * static_cast<double>(report.vertex_frames) / static_cast<double>(report.bytes));
   if (report.largest_error > 0)
-    fmt::print(stderr, "no coordinate is off by more than {:.3g}\n", report.largest_error);
+    fmt::print(stderr, "no coordinate is off by more than {:.3g}\n", rounded_up(report.largest_error));
 }
 
 Result<LiveReport> encode_whole(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
