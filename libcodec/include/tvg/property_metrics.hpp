@@ -60,8 +60,8 @@ struct PropertyReport {
 /// lacks count as 0, of a colour's alpha as 1.
 class PropertyComparison {
  public:
-  /// Both sides must stay until the last add_frame(), not until report(). kInvalidInput where properties do not fit their mesh,
-  /// kInvalidArgument where the meshes have different numbers of vertices.
+  /// Both sides must stay until the last add_frame(), not until report(). kInvalidInput where properties do
+  /// not fit their mesh, kInvalidArgument where the meshes have different numbers of vertices.
   static Result<PropertyComparison> of(const Mesh& original_mesh, const MeshProperties& original,
                                        const Mesh& decoded_mesh, const MeshProperties& decoded);
   ~PropertyComparison();
