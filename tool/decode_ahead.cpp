@@ -23,11 +23,6 @@ class DecodeAhead::Worker {
     if (!begin()) return gop;
     reader_.seek(gop.first_frame);
     gop.whole = read_frames(gop, place.entry.frame_count);
-    if (gop.whole && (mesh_ == nullptr || mesh_offset != mesh_offset_)) {
-      mesh_ = std::make_shared<const Mesh>(reader_.decoder().mesh());
-      properties_ = std::make_shared<const MeshProperties>(reader_.decoder().properties());
-      mesh_offset_ = mesh_offset;
-    }
     gop.mesh = mesh_;
     gop.properties = properties_;
     return gop;
@@ -63,6 +58,7 @@ class DecodeAhead::Worker {
           break;
         case Decoder::Event::kFrame:
           if (decoder.frame_number() != gop.first_frame + gop.frames.size()) return false;
+          if (gop.frames.empty()) take_mesh(gop.mesh_offset);
           decoder.copy_positions(
               gop.frames.emplace_back(3 * std::size_t{decoder.mesh().vertex_count}).data());
           break;
@@ -75,6 +71,14 @@ class DecodeAhead::Worker {
           break;
       }
     }
+  }
+
+  /// While the GOP's first frame is there: behind its last one the decoder may have the next mesh.
+  void take_mesh(std::uint64_t offset) {
+    if (mesh_ != nullptr && offset == mesh_offset_) return;
+    mesh_ = std::make_shared<const Mesh>(reader_.decoder().mesh());
+    properties_ = std::make_shared<const MeshProperties>(reader_.decoder().properties());
+    mesh_offset_ = offset;
   }
 
   StreamReader reader_;
