@@ -7,7 +7,7 @@ seconds=$2
 mkdir -p "$build/crashes"
 
 for target in decoder_fuzz connectivity_fuzz c_api_fuzz c_api_encoder_fuzz streams_fuzz obj_fuzz ply_fuzz off_fuzz \
-  stl_fuzz cache_fuzz npy_fuzz weights_fuzz skeleton_fuzz scene_header_fuzz gltf_fuzz; do
+  stl_fuzz mtl_fuzz cache_fuzz npy_fuzz npz_fuzz weights_fuzz skeleton_fuzz scene_header_fuzz gltf_fuzz; do
   program=$(find "$build" -type f -name "$target" -perm -u+x | head -n 1)
   if [ -z "$program" ]; then
     echo "run_fuzzers.sh: no program $target in $build" >&2

@@ -31,13 +31,15 @@ struct NpzEntry {
   std::uint64_t stored_size = 0;  ///< bytes in the archive
   std::uint64_t size = 0;         ///< bytes of the array
   std::uint64_t header = 0;       ///< where its local header is
+  std::uint32_t crc = 0;          ///< CRC-32 of the array's bytes
 };
 
 /// The arrays of a .npz file. Throws ImportError where it is no archive, or one of another kind (encrypted,
 /// another compression).
 std::vector<NpzEntry> list_npz(const std::string& path);
 
-/// One of them. Going back in a deflated one reads it from its beginning.
+/// One of them. Going back in a deflated one reads it from its beginning. Its checksum is compared where the
+/// array is read from front to back; an ImportError tells that it differs.
 std::unique_ptr<ArrayFile> open_npz_entry(const std::string& path, const NpzEntry& entry);
 
 }  // namespace tvg::cli

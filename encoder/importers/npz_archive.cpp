@@ -100,6 +100,7 @@ NpzEntry read_entry(const std::string& path, std::string_view record, std::strin
          fmt::format("the array '{}' is compressed by method {}: only stored and deflated ones are read",
                      entry.name, method));
   entry.deflated = method == kDeflated;
+  entry.crc = at<std::uint32_t>(record, 16);
   entry.stored_size = at<std::uint32_t>(record, 20);
   entry.size = at<std::uint32_t>(record, 24);
   entry.header = at<std::uint32_t>(record, 42);
@@ -130,6 +131,7 @@ class NpzFile final : public ArrayFile {
   std::size_t read(void* data, std::size_t size) override {
     const std::size_t wanted = std::min<std::uint64_t>(size, entry_.size - place_);
     const std::size_t got = entry_.deflated ? inflate_some(data, wanted) : file_.read(data, wanted);
+    check(data, got);
     place_ += got;
     return got;
   }
@@ -148,6 +150,15 @@ class NpzFile final : public ArrayFile {
   }
 
  private:
+  /// Goes on with the checksum where these bytes follow those that it was made of.
+  void check(const void* data, std::size_t size) {
+    if (place_ != checked_) return;
+    checked_ += size;
+    crc_ = crc32_z(crc_, static_cast<const Bytef*>(data), size);
+    if (checked_ == entry_.size && crc_ != entry_.crc)
+      fail(name_, "its checksum does not fit its bytes: the archive is damaged");
+  }
+
   void restart() {
     file_.seek(begin_);
     place_ = 0;
@@ -185,9 +196,11 @@ class NpzFile final : public ArrayFile {
   InputFile file_;
   std::string name_;
   NpzEntry entry_;
-  std::uint64_t begin_ = 0;  // of its bytes in the archive
-  std::uint64_t place_ = 0;  // in the array
-  std::uint64_t left_ = 0;   // compressed bytes not read yet
+  std::uint64_t begin_ = 0;    // of its bytes in the archive
+  std::uint64_t place_ = 0;    // in the array
+  std::uint64_t left_ = 0;     // compressed bytes not read yet
+  std::uint64_t checked_ = 0;  // bytes of the array, from its beginning, that crc_ is of
+  uLong crc_ = 0;
   bool inflating_ = false;
   z_stream stream_{};
   std::array<Bytef, std::size_t{1} << 15> input_;

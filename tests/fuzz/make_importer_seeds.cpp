@@ -59,6 +59,10 @@ void write_mesh_seeds(const fs::path& target) {
   out("obj_fuzz/rich",
       "# c\no toy\nv 0 0 0 1\nv 1 0 \\\n 0\nv 0 1e-3 0\nv +1 -1 .5\nvt 0 0\nvn 0 0 1\ng x\nusemtl m\ns 1\n"
       "f 1/1/1 2//1 3/1 -1\nf -3 -2 -1\n");
+  out("mtl_fuzz/rich",
+      "# c\nnewmtl red paint\nKd 1 0.5 0\nKs 0 0 0\nNs 96.5\nd -halo 0.5\nTr 0.5\nillum 2\nKe 0 0 \\\n1\n"
+      "map_Kd -s 1 1 1 -o 0 0 -clamp on my pictures/red.png\nmap_d a.png\nnorm n.png\nPr .3\nPm 1\nnewmtl "
+      "b\n");
   out("ply_fuzz/written", written(target, "a.ply", 1));
   out("ply_fuzz/ascii",
       "ply\nformat ascii 1.0\ncomment c\nelement vertex 3\nproperty float x\nproperty double y\nproperty "
@@ -98,6 +102,9 @@ void write_cache_seeds(const fs::path& target) {
 }
 
 void write_other_seeds(const fs::path& target) {
+  const auto word = [](std::size_t value) {
+    return std::string{static_cast<char>(value), static_cast<char>(value >> 8), 0, 0};
+  };
   const auto array = [](const std::string& type, const std::string& data) {
     std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (2,), }";
     header.resize(117, ' ');
@@ -107,14 +114,26 @@ void write_other_seeds(const fs::path& target) {
   std::string frames = "{'descr': '<f2', 'fortran_order': False, 'shape': (2, 1, 3), }";
   frames.resize(117, ' ');
   write_file(target / "npy_fuzz/frames", "\0\x93NUMPY\1\0v\0"s + frames + "\n" + std::string(12, '\1'));
+  // A stored and a deflated array of three bytes, 'abc'.
+  const std::string sizes = "\xc2\x41\x24\x35"s, name = "a.npy";
+  const std::string deflated = "\1\3\0\xfc\xff\x61\x62\x63"s;
+  const auto entry = [&](char method, char stored, char offset) {
+    return "PK\1\2\x14\0\x14\0\0\0"s + method + std::string(5, '\0') + sizes + stored + std::string(3, '\0') +
+           "\3\0\0\0\5"s + std::string(13, '\0') + offset + std::string(3, '\0') + name;
+  };
+  const auto local = [&](char method, char stored, const std::string& bytes) {
+    return "PK\3\4\x14\0\0\0"s + method + std::string(5, '\0') + sizes + stored + std::string(3, '\0') +
+           "\3\0\0\0\5\0\0\0"s + name + bytes;
+  };
+  const std::string files = local(0, 3, "abc") + local(8, 8, deflated);
+  const std::string directory = entry(0, 3, 0) + entry(8, 8, static_cast<char>(local(0, 3, "abc").size()));
+  write_file(target / "npz_fuzz/two", files + directory + "PK\5\6"s + std::string(4, '\0') + "\2\0\2\0"s +
+                                          word(directory.size()) + word(files.size()) + std::string(2, '\0'));
   write_file(target / "weights_fuzz/single", array("<f4", std::string(8, '\0')));
   write_file(target / "weights_fuzz/double", array("<f8", std::string(16, '\0')));
   write_file(target / "skeleton_fuzz/hand",
              R"({"joints":[{"name":"a","parent":null},{"name":"b","parent":0}],)"
              R"("frames":[[[0,0,0],[1,2.5,-3e2]],[[0,0,0],[1,1,1]]],"heaviest_joint":[0,1,1,0]})");
-  const auto word = [](std::size_t value) {
-    return std::string{static_cast<char>(value), static_cast<char>(value >> 8), 0, 0};
-  };
   write_file(target / "scene_header_fuzz/collada",
              "<Name_array>STEP LINEAR</Name_array><Name_array>BEZIER</Name_array>");
   for (const std::string signature : {"IDP2", "IDP3", "IDPC", "IDPO"}) {

@@ -1,6 +1,7 @@
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/mesh_file.hpp"
 #include "fuzz/require.hpp"
+#include "geometry/property_fault.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -19,6 +20,8 @@ void check(const tvg::cli::MeshFile& mesh, std::size_t bytes) {
     for (const std::uint32_t index : face) require(index < mesh.vertex_count());
   }
   for (const float value : mesh.positions) require(std::isfinite(value));
+  const tvg::Mesh faces{static_cast<std::uint32_t>(mesh.vertex_count()), mesh.faces};
+  require(!tvg::property_fault(faces, {mesh.attributes, mesh.parts, mesh.face_parts, mesh.polygons}));
   // No count of the file is taken at its word: every number has bytes of its own.
   require(mesh.positions.size() <= bytes && mesh.faces.size() <= bytes);
 }

@@ -37,6 +37,16 @@ std::string deflated(const std::string& bytes) {
   return block.bytes() + bytes;
 }
 
+/// As ZIP has it, bit by bit.
+std::uint32_t crc_of(const std::string& bytes) {
+  std::uint32_t crc = UINT32_MAX;
+  for (const char byte : bytes) {
+    crc ^= static_cast<std::uint8_t>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? 0xedb88320U : 0U);
+  }
+  return ~crc;
+}
+
 std::string npz(const std::vector<Entry>& entries) {
   ByteString file(false), directory(false);
   for (const Entry& entry : entries) {
@@ -64,7 +74,7 @@ std::string npz(const std::vector<Entry>& entries) {
         .add(std::uint16_t{20})
         .add(std::uint16_t{0})
         .add(method);
-    directory.add(std::uint32_t{0}).add(std::uint32_t{0});
+    directory.add(std::uint32_t{0}).add(crc_of(entry.bytes));
     directory.add(entry.wide ? UINT32_MAX : stored_size).add(entry.wide ? UINT32_MAX : size).add(name_size);
     directory.add(static_cast<std::uint16_t>(entry.wide ? 20 : 0))
         .add(std::uint16_t{0})
@@ -146,6 +156,13 @@ TEST_F(Npz, DamageIsAnError) {
   std::string odd = good;
   odd[good.find("verts.npy") + 12] = 7;  // the first block's kind
   EXPECT_THAT(message(odd), HasSubstr("compressed bytes are damaged"));
+  for (const bool is_deflated : {false, true}) {
+    std::string turned = npz({{"verts.npy", frames_npy(), is_deflated}});
+    turned[turned.find("NUMPY") + 130] ^= 1;  // a value of the first frame
+    const Frames frames = read_all(*open(turned).source);
+    ASSERT_TRUE(frames.error);
+    EXPECT_THAT(frames.error->message, HasSubstr("its checksum does not fit its bytes"));
+  }
 }
 
 }  // namespace
