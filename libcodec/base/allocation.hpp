@@ -19,7 +19,8 @@ inline constexpr std::size_t kSmallThings = 4096;
 template <class T>
 [[nodiscard]] bool try_reserve(std::vector<T>& vector, std::size_t count) {
   if (count <= vector.capacity()) return true;
-  if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T) || !can_allocate(count * sizeof(T))) return false;
+  constexpr std::size_t kSize = sizeof(T);  // NOLINT(bugprone-sizeof-expression): elements may be pointers
+  if (count > static_cast<std::size_t>(-1) / 2 / kSize || !can_allocate(count * kSize)) return false;
   vector.reserve(count);
   return true;
 }

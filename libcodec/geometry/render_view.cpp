@@ -152,11 +152,10 @@ class RenderView::Builder {
         !try_resize(render_vertex_, corner_count())) {
       return false;
     }
-    for (std::size_t i = 0; i < view_.attributes_.size(); ++i) {
-      std::vector<std::uint32_t>& values = view_.attributes_[i].indices;
-      if (view_.attributes_[i].domain == AttributeDomain::kVertex) continue;
-      if (!try_resize(values, render_vertices_)) return false;
-      std::fill(values.begin(), values.end(), kNoValue);
+    for (auto& attribute : view_.attributes_) {
+      if (attribute.domain == AttributeDomain::kVertex) continue;
+      if (!try_resize(attribute.indices, render_vertices_)) return false;
+      std::fill(attribute.indices.begin(), attribute.indices.end(), kNoValue);
     }
     std::uint32_t next = mesh_.vertex_count;
     for (std::uint32_t v = 0; v < mesh_.vertex_count; ++v) {

@@ -48,6 +48,7 @@ std::uint64_t unmatched_polygons(std::span<const Face> original_faces, std::span
   std::vector<const Outline*> alone;
   const auto pointers = [](const std::vector<Outline>& outlines) {
     std::vector<const Outline*> result;
+    result.reserve(outlines.size());
     for (const Outline& outline : outlines) result.push_back(&outline);
     return result;
   };

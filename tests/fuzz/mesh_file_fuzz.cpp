@@ -20,8 +20,6 @@ void check(const tvg::cli::MeshFile& mesh, std::size_t bytes) {
     for (const std::uint32_t index : face) require(index < mesh.vertex_count());
   }
   for (const float value : mesh.positions) require(std::isfinite(value));
-  const tvg::Mesh faces{static_cast<std::uint32_t>(mesh.vertex_count()), mesh.faces};
-  require(!tvg::property_fault(faces, {mesh.attributes, mesh.parts, mesh.face_parts, mesh.polygons}));
   // No count of the file is taken at its word: every number has bytes of its own.
   require(mesh.positions.size() <= bytes && mesh.faces.size() <= bytes);
 }
@@ -40,6 +38,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   check(mesh, size);
+  const tvg::Mesh faces{static_cast<std::uint32_t>(mesh.vertex_count()), mesh.faces};
+  require(!tvg::property_fault(faces, {mesh.attributes, mesh.parts, mesh.face_parts, mesh.polygons}));
   // STL has corners, which are then welded.
   const tvg::Weld weld = tvg::weld_positions(mesh.positions);
   tvg::cli::apply_weld(weld, mesh);
