@@ -53,7 +53,8 @@ class ExampleTest : public ::testing::Test {
   void TearDown() override { std::filesystem::remove(path_); }
 
   const Stream stream_ = hybrid_stream();
-  const std::string path_ = ::testing::TempDir() + "tvg_example.tvg";
+  const std::string path_ = ::testing::TempDir() + "tvg_example_" +
+                            ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".tvg";
 };
 
 TEST_F(ExampleTest, PrintFramesPrintsALineForEveryFrame) {
