@@ -146,7 +146,10 @@ class DecodeJob {
 
   void write_frame() {
     const Decoder& decoder = reader_.decoder();
-    if (is_wanted(decoder.frame_number())) decoder.copy_positions(frame_buffer().data());
+    if (is_wanted(decoder.frame_number())) {
+      decoder.copy_positions(frame_buffer().data());
+      values_ = KeptValues(decoder);
+    }
     take_frame(decoder.frame_number());
   }
 
@@ -164,8 +167,8 @@ class DecodeJob {
     next_frame_ = frame + 1;
     if (is_wanted(frame)) {
       for (; held_ > 0; --held_)
-        sink_->write_frame(positions_);  // lost before any good frame: the first stands in
-      sink_->write_frame(positions_);
+        sink_->write_frame(positions_, values_.spans());  // lost before any good frame: the first stands in
+      sink_->write_frame(positions_, values_.spans());
       ++written_;
       bar_.update(written_, output_frames_);
     }
@@ -180,12 +183,19 @@ class DecodeJob {
     return 0;
   }
 
+  bool has_animated() const {
+    const std::vector<Attribute>& attributes = reader_.decoder().properties().attributes;
+    return std::any_of(attributes.begin(), attributes.end(),
+                       [](const Attribute& attribute) { return attribute.animated; });
+  }
+
   /// Decodes GOPs several at a time, as long as nothing is wrong with them. What is, is then read in order.
   void run_ahead() {
     while (!begun_ && !done_) handle(reader_.next());
     if (done_) return;
-    const std::uint64_t bytes = std::uint64_t{reader_.decoder().head().limits.frames_per_gop} *
-                                reader_.decoder().head().limits.vertices * 3 * sizeof(float);
+    const StreamLimits& limits = reader_.decoder().head().limits;
+    const std::uint64_t bytes = limits.frames_per_gop * (std::uint64_t{limits.vertices} * 3 * sizeof(float) +
+                                                         (has_animated() ? limits.property_bytes : 0));
     if (bytes > kMostBytesAhead / (threads_ + 1)) return;
     std::uint64_t told_mesh = first_mesh_offset(*index_);
     DecodeAhead ahead(arguments_.input, *index_, wanted_.value_or(FrameRange{0, *total_ - 1}), threads_,
@@ -199,6 +209,7 @@ class DecodeJob {
         sink_->begin_mesh(*gop->mesh, *gop->properties, reader_.decoder().metadata(), output_frames_);
       for (std::size_t i = 0; i < gop->frames.size() && !done_; ++i) {
         positions_.swap(gop->frames[i]);
+        std::swap(values_, gop->values[i]);
         take_frame(gop->first_frame + i);
       }
     }
@@ -213,7 +224,8 @@ class DecodeJob {
     if (written_ == 0) {
       held_ += lost->count();
     } else {
-      for (std::uint64_t frame = lost->first; frame < lost->end; ++frame) sink_->write_frame(positions_);
+      for (std::uint64_t frame = lost->first; frame < lost->end; ++frame)
+        sink_->write_frame(positions_, values_.spans());
     }
     if (wanted_ && next_frame_ > wanted_->last) done_ = true;
   }
@@ -251,6 +263,7 @@ class DecodeJob {
   std::optional<FrameRange> wanted_;
   std::vector<std::string> notes_;
   std::vector<float> positions_;  ///< the last good frame, [vertex][xyz]
+  KeptValues values_;             ///< of it
   bool begun_ = false;
   bool pending_mesh_ = false;
   bool done_ = false;

@@ -174,6 +174,10 @@ std::optional<Decoder::Event> Decoder::State::decode_frame() {
   const Predictor predictor = reader.predictor();
   Status decoded = measured_take != nullptr ? (gop.*measured_take)(packet, predictor, frame_bits)
                                             : gop.take(packet, predictor);
+  if (!decoded.ok() && decoded.error().code == ErrorCode::kOutOfMemory) {
+    reader.fail(decoded.error());
+    return Event::kError;
+  }
   if (!decoded.ok()) {  // the checksum fits, so what the packet was decoded from may be wrong already
     reader.reject(decoded.error().code);
     frames_.search();
@@ -289,6 +293,12 @@ const MeshInfo& Decoder::mesh_info() const {
 }
 const MeshProperties& Decoder::properties() const {
   return state_->mesh->properties;
+}
+std::span<const float> Decoder::animated_values(std::size_t attribute) const {
+  return state_->gop.animated().values(attribute);
+}
+std::uint64_t Decoder::animated_bytes(std::size_t attribute) const {
+  return state_->gop.animated().bytes(attribute);
 }
 std::uint32_t Decoder::lod_count() const {
   return static_cast<std::uint32_t>(mesh_info().lods.size());

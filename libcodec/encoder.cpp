@@ -60,6 +60,7 @@ std::optional<double> half_step_of(const EncodeOptions& options) {
 /// Algorithm 1, then the chunks.
 Result<EncodedRun> mark_and_encode(const Job& job) {
   GopInput input{.frames = job.gop.content->frames,
+                 .values = job.gop.content->values,
                  .mode = job.stretch->options->mode,
                  .first_frame = job.gop.first_frame,
                  .lattice = job.lattice,
@@ -106,10 +107,14 @@ class Encoder::State {
     return lasting([&] { return begin_stretch(mesh, skeleton, properties); });
   }
 
-  Status add_frame(std::span<const float> positions, std::span<const float> joints) {
+  Status add_frame(std::span<const float> positions, std::span<const float> joints,
+                   std::span<const std::span<const float>> values) {
     BoundingBox frame_box;
     frame_box.extend(positions);
     if (Status status = check_new_frame(positions, joints, frame_box); !status.ok()) return status;
+    if (Status status = check_animated(stretch_->properties, stretch_->mesh, values, frames_added());
+        !status.ok())
+      return status;
     return lasting([&] {
       if (!mesh_written_) {
         if (Status status = write_mesh(positions); !status.ok()) return status;
@@ -118,8 +123,8 @@ class Encoder::State {
       if (with_joints_) kept.assign(joints.begin(), joints.end());
       gop_box_ = around(gop_box_, frame_box);
       report_.vertex_frames += stretch_->mesh.vertex_count;
-      std::optional<GopContent> gop =
-          cutter_->add(FramePositions(positions.begin(), positions.end()), std::move(kept));
+      std::optional<GopContent> gop = cutter_->add(FramePositions(positions.begin(), positions.end()),
+                                                   std::move(kept), animated_of(values));
       if (gop) {
         if (Status status = enqueue(std::move(*gop)); !status.ok()) return status;
       }
@@ -176,6 +181,12 @@ class Encoder::State {
                                                   " bytes, the head declares " +
                                                   std::to_string(limits_.property_bytes)};
     }
+    if (stretch_ && animated_frame_bytes_of(properties, mesh) > frame_bytes_) {
+      return Error{ErrorCode::kLimitExceeded, "the values of animated attributes may take " +
+                                                  std::to_string(animated_frame_bytes_of(properties, mesh)) +
+                                                  " bytes of a frame, the head allows for " +
+                                                  std::to_string(frame_bytes_)};
+    }
     return check_importance(options_->importance, mesh, skeleton);
   }
 
@@ -197,6 +208,16 @@ class Encoder::State {
       if (!lattice) return at_frame(number, lattice.error());
     }
     return with_joints_ ? check_joints(joints, stretch_->skeleton, number) : Status();
+  }
+
+  /// Of all values those of animated attributes.
+  FrameValues animated_of(std::span<const std::span<const float>> values) const {
+    FrameValues animated;
+    const std::vector<Attribute>& attributes = stretch_->properties.attributes;
+    for (std::size_t i = 0; i < attributes.size(); ++i) {
+      if (attributes[i].animated) animated.emplace_back(values[i].begin(), values[i].end());
+    }
+    return animated;
   }
 
   /// Does what cannot be taken back: an error stays.
@@ -224,7 +245,9 @@ class Encoder::State {
     if (stretch_) {
       if (Status status = flush(); !status.ok()) return status;
     } else {
-      limits_ = limits_for(mesh, *options_, property_bytes_of(stretch->properties, mesh));
+      frame_bytes_ = std::max<std::uint64_t>(animated_frame_bytes_of(stretch->properties, mesh),
+                                             options_->max_animated_frame_bytes);
+      limits_ = limits_for(mesh, *options_, property_bytes_of(stretch->properties, mesh), frame_bytes_);
       report_.vertices = mesh.vertex_count;
       if (Status status = writer_.write_start(limits_, options_->metadata, options_->data); !status.ok())
         return status;
@@ -346,6 +369,7 @@ class Encoder::State {
   GopQueue queue_;
   const bool with_joints_;
   StreamLimits limits_;
+  std::uint64_t frame_bytes_ = 0;  ///< that the limits have for the animated attributes of a frame
   EncodeReport report_;
   std::shared_ptr<Stretch> stretch_;
   std::deque<std::shared_ptr<Stretch>> known_;  ///< the latest whose meshes were written
@@ -368,7 +392,11 @@ Status Encoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshP
 }
 
 Status Encoder::add_frame(std::span<const float> positions, std::span<const float> joints) {
-  return state_->add_frame(positions, joints);
+  return state_->add_frame(positions, joints, {});
+}
+Status Encoder::add_frame(std::span<const float> positions, std::span<const float> joints,
+                          std::span<const std::span<const float>> values) {
+  return state_->add_frame(positions, joints, values);
 }
 
 Result<EncodeReport> Encoder::finish() {

@@ -19,7 +19,8 @@ class DecodeAhead::Worker {
                    .mesh_offset = mesh_offset,
                    .mesh = {},
                    .properties = {},
-                   .frames = {}};
+                   .frames = {},
+                   .values = {}};
     if (!begin()) return gop;
     reader_.seek(gop.first_frame);
     gop.whole = read_frames(gop, place.entry.frame_count);
@@ -61,6 +62,7 @@ class DecodeAhead::Worker {
           if (gop.frames.empty()) take_mesh(gop.mesh_offset);
           decoder.copy_positions(
               gop.frames.emplace_back(3 * std::size_t{decoder.mesh().vertex_count}).data());
+          gop.values.emplace_back(decoder);
           break;
         case Decoder::Event::kEnd:
           return gop.frames.size() == frame_count;

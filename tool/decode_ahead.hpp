@@ -1,4 +1,6 @@
 #pragma once
+#include "tool/animated_values.hpp"
+
 #include <cstdint>
 #include <deque>
 #include <future>
@@ -20,6 +22,7 @@ struct DecodedGop {
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const MeshProperties> properties;  ///< of the mesh
   std::vector<FramePositions> frames;                ///< [frame][vertex][xyz]
+  std::vector<KeptValues> values;                    ///< [frame], of animated attributes
   /// Whether all is well up to the next GOP. Otherwise the frames are not to be used: who reads the stream
   /// from `first_frame` on learns what is missing.
   bool whole = false;

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include <tvg/data.hpp>
+
 namespace tvg::cli {
 
 bool is_stream_file(const std::string& path) {
@@ -18,12 +20,16 @@ StreamSource::StreamSource(std::string path) : path_(std::move(path)) {
 
 void StreamSource::open() {
   reader_ = std::make_unique<StreamReader>(path_);
+  data_.clear();
   for (;;) {
     const Decoder& decoder = reader_->decoder();
     switch (reader_->next()) {
       case Decoder::Event::kMesh:
         take_mesh();
         return;
+      case Decoder::Event::kData:
+        take_data(decoder.data());
+        break;
       case Decoder::Event::kError:
         throw tool_error(path_, decoder.error());
       case Decoder::Event::kDamage:
@@ -34,6 +40,14 @@ void StreamSource::open() {
         break;
     }
   }
+}
+
+/// Data of a name that came before take the place of those; what cannot be unpacked is left out.
+void StreamSource::take_data(const CodedData& coded) {
+  Result<NamedData> data = unpack_data(coded);
+  if (!data) return;
+  std::erase_if(data_, [&](const NamedData& known) { return known.name == data->name; });
+  data_.push_back(std::move(*data));
 }
 
 void StreamSource::take_mesh() {

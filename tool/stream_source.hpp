@@ -20,7 +20,12 @@ class StreamSource final : public FrameSource {
 
   const Mesh& mesh() const override { return mesh_; }
   const MeshProperties& properties() const override { return properties_; }
+  std::span<const float> animated_values(std::size_t attribute) const override {
+    return reader_->decoder().animated_values(attribute);
+  }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
+  /// What comes before the first mesh.
+  std::span<const NamedData> data() const override { return data_; }
   std::optional<std::uint64_t> frame_count() const override { return frame_count_; }
   Result<bool> read_frame(std::span<float> positions) override;
   Result<bool> begin_next_mesh() override;
@@ -30,12 +35,14 @@ class StreamSource final : public FrameSource {
  private:
   void open();
   void take_mesh();
+  void take_data(const CodedData& coded);
   Error named(Error error) const;
 
   std::string path_;
   std::unique_ptr<StreamReader> reader_;
   Mesh mesh_;
   MeshProperties properties_;
+  std::vector<NamedData> data_;
   bool changed_ = false;  // the last error was another mesh
   std::optional<std::uint64_t> frame_count_;
 };

@@ -42,8 +42,12 @@ class AttributeCoder {
   bool code_values(Coder& coder, const AttributeGrid& grid, std::span<const std::uint32_t> of_corner,
                    std::span<std::int32_t> integers) {
     const WedgeFans fans(of_corner, integers.size() / grid.integers());
-    if (grid.octahedral()) return NormalCoder(mesh_, fans, grid).code(coder, integers);
-    return FieldCoder(mesh_, fans, partner_, grid).code(coder, integers);
+    if (grid.octahedral()) {
+      NormalModels models;
+      return NormalCoder(mesh_, fans, grid, models).code(coder, integers);
+    }
+    FieldModels models(grid);
+    return FieldCoder(mesh_, fans, partner_, grid, models).code(coder, integers);
   }
 
  private:

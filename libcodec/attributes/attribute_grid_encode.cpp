@@ -1,6 +1,7 @@
 #include "attributes/attribute_grid_encode.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tvg {
@@ -32,20 +33,23 @@ void fold(std::span<const float> normal, const AttributeGrid& grid, std::int32_t
 
 }  // namespace
 
-AttributeGrid grid_over(const Attribute& attribute) {
-  AttributeGrid grid{attribute.kind, attribute.components, attribute.bits, {}, 0};
-  if (!grid.stepped() || attribute.values.empty()) return grid;
+AttributeGrid grid_over(AttributeGrid like, std::span<const AttributeValues> frames) {
+  AttributeGrid grid = like;
   std::array<float, kMaxAttributeComponents> low{}, high{};
-  for (std::size_t i = 0; i < attribute.values.size(); ++i) {
-    const std::size_t c = i % grid.components;
-    const float x = attribute.values[i];
-    low[c] = i < grid.components ? x : std::min(low[c], x);
-    high[c] = i < grid.components ? x : std::max(high[c], x);
+  bool any = false, share = true;
+  for (const AttributeValues values : frames) {
+    if (!grid.stepped() || values.empty()) continue;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t c = i % grid.components;
+      const bool first = !any && i < grid.components;
+      low[c] = first ? values[i] : std::min(low[c], values[i]);
+      high[c] = first ? values[i] : std::max(high[c], values[i]);
+      share = share && values[i] >= 0 && values[i] <= 1;
+    }
+    any = true;
   }
-  const auto all = [&](const auto& test) {
-    return std::all_of(attribute.values.begin(), attribute.values.end(), test);
-  };
-  if (grid.kind == AttributeKind::kColour && all([](float x) { return x >= 0 && x <= 1; })) {
+  if (!any) return grid;
+  if (grid.kind == AttributeKind::kColour && share) {
     grid.range = 1;
     return grid;
   }
@@ -56,17 +60,16 @@ AttributeGrid grid_over(const Attribute& attribute) {
   return grid;
 }
 
-std::vector<std::int32_t> integers_of(const Attribute& attribute, const AttributeGrid& grid) {
-  const std::size_t count = attribute.value_count();
+std::vector<std::int32_t> integers_of(AttributeValues values, const AttributeGrid& grid) {
+  const std::size_t count = values.size() / grid.components;
   std::vector<std::int32_t> integers(count * grid.integers());
   if (grid.octahedral()) {
-    for (std::size_t i = 0; i < count; ++i)
-      fold(std::span(attribute.values).subspan(3 * i, 3), grid, &integers[2 * i]);
+    for (std::size_t i = 0; i < count; ++i) fold(values.subspan(3 * i, 3), grid, &integers[2 * i]);
     return integers;
   }
   const double largest = grid.stepped() ? grid.largest() : 0;
   for (std::size_t i = 0; i < integers.size(); ++i) {
-    const float x = attribute.values[i];
+    const float x = values[i];
     if (!grid.stepped()) {
       integers[i] = ordered_integer(x);
     } else if (grid.range > 0) {
@@ -75,6 +78,12 @@ std::vector<std::int32_t> integers_of(const Attribute& attribute, const Attribut
     }
   }
   return integers;
+}
+
+void write_steps(ByteWriter& writer, const AttributeGrid& grid) {
+  if (!grid.stepped()) return;
+  for (std::size_t c = 0; c < grid.components; ++c) writer.u32(bits_as<std::uint32_t>(grid.origin[c]));
+  writer.f64(grid.range);
 }
 
 }  // namespace tvg

@@ -28,14 +28,22 @@ struct FieldValue {
 class FieldOpinions {
  public:
   using Value = std::array<double, kMaxAttributeComponents>;
-  /// The numbers of the opinions. The third needs a reference shape, the last is of texture coordinates too.
-  enum Opinion : std::size_t { kParallelogram = 0, kMean = 1, kAffine = 2, kSimilar = 3 };
+  /// The numbers of the opinions. The third needs a reference shape, the last is of texture coordinates too;
+  /// of changes it is how the value changed before.
+  enum Opinion : std::size_t { kParallelogram = 0, kMean = 1, kAffine = 2, kSimilar = 3, kBefore = 3 };
+  /// What the values are.
+  enum class Of : std::uint8_t { kNumbers, kTexcoords, kChanges };
 
   FieldOpinions(const PropertyMesh& mesh, const WedgeFans& fans, std::span<const std::uint32_t> partner,
-                std::span<const FieldValue> values, bool flat)
-      : mesh_(mesh), fans_(fans), partner_(partner), values_(values), flat_(flat && mesh.shape != nullptr) {}
+                std::span<const FieldValue> values, Of what)
+      : mesh_(mesh),
+        fans_(fans),
+        partner_(partner),
+        values_(values),
+        flat_(what == Of::kTexcoords && mesh.shape != nullptr),
+        changes_(what == Of::kChanges) {}
 
-  std::size_t count() const { return mesh_.shape == nullptr ? 2 : flat_ ? 4 : 3; }
+  std::size_t count() const { return flat_ || changes_ ? 4 : mesh_.shape == nullptr ? 2 : 3; }
 
   struct Heard : Opinions<FieldValue::kOpinions, kMaxAttributeComponents> {
     std::array<double, FieldValue::kOpinions> weight{};
@@ -43,9 +51,14 @@ class FieldOpinions {
     int wings = 0;  ///< parallelograms that the value closes
   };
 
-  /// `last` is the value before, in the order of coding.
-  Heard of(std::uint32_t wedge, const Value& last) const {
+  /// `last` is the value before, in the order of coding; `change`, where values are changes, the last of this
+  /// one.
+  Heard of(std::uint32_t wedge, const Value& last, const Value& change) const {
     Heard heard;
+    if (changes_) {
+      heard.opinion[kBefore] = change;
+      heard.weight[kBefore] = 1;
+    }
     for (const std::uint32_t corner : fans_.corners(wedge)) hear_face(heard, corner);
     for (std::size_t k = 0; k < count(); ++k) {
       if (!(heard.weight[k] > 0)) continue;
@@ -53,7 +66,7 @@ class FieldOpinions {
     }
     if (!(heard.weight[kMean] > 0)) heard.opinion[kMean] = last;
     if (!(heard.weight[kParallelogram] > 0))
-      heard.opinion[kParallelogram] = heard.opinion[heard.weight[kSimilar] > 0 ? kSimilar : kMean];
+      heard.opinion[kParallelogram] = heard.opinion[flat_ && heard.weight[kSimilar] > 0 ? kSimilar : kMean];
     for (std::size_t k = kAffine; k < count(); ++k) {
       if (!(heard.weight[k] > 0)) heard.opinion[k] = heard.opinion[kParallelogram];
     }
@@ -169,6 +182,7 @@ class FieldOpinions {
   std::span<const std::uint32_t> partner_;
   std::span<const FieldValue> values_;  ///< [wedge]
   bool flat_;                           ///< texture coordinates of two numbers over a shape
+  bool changes_;                        ///< from one frame to the next
   int turn_ = 0;  ///< below 0 where the texture coordinates met last are mirrored, most of them
 };
 

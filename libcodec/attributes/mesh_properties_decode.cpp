@@ -10,7 +10,7 @@ namespace tvg {
 // format-spec §4.3
 Result<MeshProperties> decode_properties(const MeshLayout& layout, CodedMesh& coded,
                                          std::span<const Face> faces, const ReferenceShape* shape,
-                                         const StreamLimits& limits) {
+                                         const StreamLimits& limits, AnimatedAttributes& animated) {
   const PropertyMesh mesh{faces, coded.order, shape};
   MeshProperties properties;
   PropertyBudget budget(limits.property_bytes);
@@ -20,7 +20,7 @@ Result<MeshProperties> decode_properties(const MeshLayout& layout, CodedMesh& co
   }
   if (!layout.attributes.empty()) {
     Result<std::vector<Attribute>> attributes =
-        decode_attributes(layout.attributes, mesh, properties.parts.size(), budget);
+        decode_attributes(layout.attributes, mesh, properties.parts.size(), budget, animated);
     if (!attributes) return attributes.error();
     properties.attributes = std::move(*attributes);
   }

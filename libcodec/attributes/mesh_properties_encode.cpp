@@ -8,10 +8,12 @@
 
 namespace tvg {
 
-void encode_properties(const MeshProperties& properties, const ReferenceShape* shape, EncodedMesh& mesh) {
+void encode_properties(const MeshProperties& properties, const ReferenceShape* shape, EncodedMesh& mesh,
+                       AnimatedAttributes& animated) {
   const PropertyMesh coded{mesh.faces, mesh.coded.order, shape};
   mesh.parts = encode_parts(properties, coded, mesh.first_corners);
-  mesh.attributes = encode_attributes(properties.attributes, coded, mesh.first_corners);
+  mesh.attributes =
+      encode_attributes(properties.attributes, coded, mesh.first_corners, properties.parts.size(), animated);
   EncodedPolygons polygons =
       encode_polygons(properties.polygons, mesh.coded.mesh.faces, coded, mesh.first_corners);
   mesh.polygons = std::move(polygons.section);

@@ -1,5 +1,6 @@
 #pragma once
 #include "attributes/attribute_grid.hpp"
+#include "attributes/frame_history.hpp"
 #include "attributes/opinions.hpp"
 #include "attributes/residual_coder.hpp"
 #include "attributes/surface_vectors.hpp"
@@ -17,13 +18,26 @@
 
 namespace tvg {
 
-/// Codes normals on the octahedron (format-spec §5.7.5).
-class NormalCoder {
+/// What coding normals learns.
+struct NormalModels {
   static constexpr std::size_t kOpinions = 5;
+
+  NormalModels() { usual.fill(0.1); }
+
+  std::array<double, kOpinions> usual{};
+  std::array<AdaptiveBit, 2> none;  ///< [whether there was none in the frame before]
+  GridResiduals residuals;
+};
+
+/// Codes normals on the octahedron (format-spec §5.7.5), also by those of frames before (§5.7.7).
+class NormalCoder {
+  static constexpr std::size_t kOpinions = NormalModels::kOpinions;
+  static constexpr std::size_t kOpinionsOverTime = 3;
 
   /// What is known of a normal.
   struct Normal {
-    Vector surface{};  ///< that of the reference shape, small faces counting as much as large ones
+    /// That of the reference shape, small faces counting as much as large ones; or that of the frame before.
+    Vector surface{};
     Vector value{};
     std::array<double, kOpinions> missed{};  ///< by how much each opinion missed it
     std::array<std::int32_t, 2> size{};      ///< of its residuals
@@ -33,16 +47,22 @@ class NormalCoder {
  public:
   static constexpr std::size_t kBytesPerValue = sizeof(Normal) + ShapeOrder::kBytesPerVertex;
 
-  NormalCoder(const PropertyMesh& mesh, const WedgeFans& fans, const AttributeGrid& grid)
+  NormalCoder(const PropertyMesh& mesh, const WedgeFans& fans, const AttributeGrid& grid,
+              NormalModels& models, const FrameHistory& history = {})
       : mesh_(mesh),
         fans_(fans),
         grid_(grid),
+        models_(models),
+        history_(history),
         centre_(grid.largest() / 2),
-        count_(mesh.shape == nullptr ? 1 : kOpinions),
+        count_(over_time()             ? kOpinionsOverTime
+               : mesh.shape == nullptr ? 1
+                                       : kOpinions),
         order_(static_cast<std::uint32_t>(fans.count())),
         normals_(fans.count()) {
-    usual_.fill(0.1);
-    for (std::uint32_t w = 0; mesh.shape != nullptr && w < normals_.size(); ++w)
+    for (std::uint32_t w = 0; over_time() && w < normals_.size(); ++w)
+      normals_[w].surface = normal_of(history_.before.subspan(2 * w, 2));
+    for (std::uint32_t w = 0; !over_time() && mesh.shape != nullptr && w < normals_.size(); ++w)
       normals_[w].surface = surface_normals(w)[2];
   }
 
@@ -66,6 +86,14 @@ class NormalCoder {
   };
   /// Coordinates of the octahedron, from its middle.
   using Place = std::array<std::int32_t, 2>;
+
+  bool over_time() const { return !history_.before.empty(); }
+
+  Vector normal_of(std::span<const std::int32_t> integers) const {
+    std::array<float, 3> value{};
+    grid_.value_of(integers, value);
+    return {static_cast<double>(value[0]), static_cast<double>(value[1]), static_cast<double>(value[2])};
+  }
 
   /// Normals of the shape, of length 1: faces counted by their area, each as one, and by how sharp they are.
   std::array<Vector, 3> surface_normals(std::uint32_t wedge) const {
@@ -99,6 +127,10 @@ class NormalCoder {
         add(off, minus(u.value, u.surface), 1);
       }
     }
+    if (over_time()) {
+      hear_frames(heard, wedge, off);
+      return heard;
+    }
     heard.opinion[0] = heard.near > 0 ? unit(beside) : last_;
     if (mesh_.shape == nullptr) return heard;
     const std::array<Vector, 3> surface = surface_normals(wedge);
@@ -109,22 +141,34 @@ class NormalCoder {
     return heard;
   }
 
+  /// What the frames before say, where what lies beside has changed by `off`.
+  void hear_frames(Heard& heard, std::uint32_t wedge, const Vector& off) const {
+    const Vector& before = normals_[wedge].surface;
+    heard.opinion[0] = heard.opinion[1] = heard.opinion[2] = before;
+    if (heard.near > 0) {
+      add(heard.opinion[1], off, 1.0 / heard.near);
+      heard.opinion[1] = unit(heard.opinion[1]);
+    }
+    if (history_.older.empty()) return;
+    add(heard.opinion[2], minus(before, normal_of(history_.older.subspan(2 * wedge, 2))), 1);
+    heard.opinion[2] = unit(heard.opinion[2]);
+  }
+
   template <class Coder>
   bool code_normal(Coder& coder, std::uint32_t w, std::span<std::int32_t> integers) {
     Heard heard = opinions(w);
-    const Vector mixed = heard.mixed(usual_, 0.0002, count_);
+    const Vector mixed = heard.mixed(models_.usual, 0.0002, count_);
     Normal& coded = normals_[w];
-    if (coder.code(none_, !Coder::kDecoding && integers[0] == grid_.none())) {
+    const bool none_before = over_time() && history_.before[2 * w] == grid_.none();
+    if (coder.code(models_.none[none_before ? 1 : 0], !Coder::kDecoding && integers[0] == grid_.none())) {
       if constexpr (Coder::kDecoding) integers[0] = integers[1] = grid_.none();
     } else if (!code_place(coder, heard, mixed, integers, coded)) {
       return false;
     }
-    std::array<float, 3> value{};
-    grid_.value_of(integers, value);
-    for (std::size_t i = 0; i < 3; ++i) coded.value[i] = static_cast<double>(value[i]);
+    coded.value = normal_of(integers);
     for (std::size_t k = 0; k < count_; ++k) {
       coded.missed[k] = distance(coded.value, heard.opinion[k]);
-      usual_[k] = usual_[k] + (coded.missed[k] - usual_[k]) * 0.05;
+      models_.usual[k] = models_.usual[k] + (coded.missed[k] - models_.usual[k]) * 0.05;
     }
     coded.known = true;
     last_ = coded.value;
@@ -147,15 +191,15 @@ class NormalCoder {
     double spread = 0;
     for (std::size_t k = 0; k < count_; ++k)
       spread = spread + heard.credit[k] * distance(heard.opinion[k], mixed);
-    residuals_.begin_value();
+    models_.residuals.begin_value();
     for (std::size_t c = 0; c < 2; ++c) {
       const double exact = sum > 0 ? mixed[c + 1] / sum * centre_ : 0;
       const auto predicted = static_cast<std::int32_t>(std::floor(exact + 0.5));
-      const std::int32_t residual =
-          residuals_.code(coder, c,
-                          {heard.sizes[c], heard.near, std::min(heard.near, 3), false,
-                           spread * (0.5 * centre_), static_cast<std::int32_t>((exact - predicted) * 16)},
-                          wrapped(place[c] - predicted));
+      const std::int32_t residual = models_.residuals.code(
+          coder, c,
+          {heard.sizes[c], heard.near, std::min(heard.near, 3), false, spread * (0.5 * centre_),
+           static_cast<std::int32_t>((exact - predicted) * 16)},
+          wrapped(place[c] - predicted));
       if (std::abs(residual) > centre_) return false;
       place[c] = wrapped(predicted + residual);
       coded.size[c] = std::abs(residual);
@@ -182,14 +226,13 @@ class NormalCoder {
   const PropertyMesh& mesh_;
   const WedgeFans& fans_;
   const AttributeGrid& grid_;
+  NormalModels& models_;
+  FrameHistory history_;
   std::int32_t centre_;
   std::size_t count_;  ///< of opinions
   ShapeOrder order_;
   std::vector<Normal> normals_;  ///< [wedge]
   Vector last_{1, 0, 0};
-  AdaptiveBit none_;
-  std::array<double, kOpinions> usual_{};
-  GridResiduals residuals_;
 };
 
 }  // namespace tvg

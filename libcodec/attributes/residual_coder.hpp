@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <memory>
 #include <vector>
 
 // How the residuals of attributes are coded (format-spec §5.7.6).
@@ -29,7 +28,7 @@ struct ResidualOutlook {
 /// Residuals on a grid, with the models of a reference shape's (§5.3.4).
 class GridResiduals {
  public:
-  GridResiduals() : models_(std::make_unique<ShapeModels>()) { running_.fill(16 << 8); }
+  GridResiduals() { running_.fill(16 << 8); }
 
   /// Begins another value.
   void begin_value() { others_ = 0; }
@@ -42,7 +41,7 @@ class GridResiduals {
     const std::int64_t same = number == 0 ? around : others_ / static_cast<std::int64_t>(number);
     const auto spread = static_cast<std::int64_t>(std::min(outlook.spread, 0x1p24) * 256);
     const std::int64_t expected = 2 * running + 4 * around + 4 * same + 6 * spread;
-    const std::int32_t coded = models_->code(coder, choice_of(outlook, spread, expected), residual);
+    const std::int32_t coded = models_.code(coder, choice_of(outlook, spread, expected), residual);
     const std::int64_t size = std::int64_t{std::abs(coded)} << 8;
     others_ += size;
     running += (size - running) >> 5;
@@ -75,7 +74,7 @@ class GridResiduals {
 
   std::array<std::int64_t, kMaxAttributeComponents> running_{};  ///< mean size of each integer's, in 1/256
   std::int64_t others_ = 0;  ///< sizes of the residuals of this value so far, in 1/256
-  std::unique_ptr<ShapeModels> models_;
+  ShapeModels models_;
 };
 
 /// Residuals of ordered integers, by the number of their bits.

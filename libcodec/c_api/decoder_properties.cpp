@@ -30,6 +30,12 @@ const tvg::Attribute* find_attribute(const tvg_decoder& decoder, std::uint32_t a
   return attribute < attributes.size() ? &attributes[attribute] : nullptr;
 }
 
+/// The values of an attribute, which check_values() found to be there.
+std::span<const float> values_of(const tvg_decoder& decoder, std::uint32_t attribute) {
+  const tvg::Attribute& found = *find_attribute(decoder, attribute);
+  return found.animated ? decoder.decoder.animated_values(attribute) : std::span<const float>(found.values);
+}
+
 /// What every call about the mesh begins with.
 tvg_code check_mesh(const tvg_decoder* decoder) {
   if (decoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
@@ -82,9 +88,9 @@ tvg_code tvg_decoder_copy_attribute(const tvg_decoder* decoder, uint32_t attribu
   const tvg::Attribute& found = *find_attribute(*decoder, attribute);
   const std::size_t count = found.value_count(), row = found.components * sizeof(float);
   if (!fits(count, values, size, stride, found.components)) return TVG_ERROR_INVALID_ARGUMENT;
+  const std::span<const float> given = values_of(*decoder, attribute);
   for (std::size_t i = 0; i < count; ++i)
-    std::memcpy(static_cast<std::byte*>(values) + stride * i, found.values.data() + found.components * i,
-                row);
+    std::memcpy(static_cast<std::byte*>(values) + stride * i, given.data() + found.components * i, row);
   return TVG_OK;
 }
 
@@ -215,8 +221,8 @@ tvg_code tvg_decoder_copy_view_attribute(const tvg_decoder* decoder, uint32_t at
   const tvg::Attribute& found = *find_attribute(*decoder, attribute);
   if (!fits(decoder->view->vertex_count(), values, size, stride, found.components))
     return TVG_ERROR_INVALID_ARGUMENT;
-  const tvg::Status copied =
-      decoder->view->copy_attribute(attribute, found.values, bytes_at(values, size), stride);
+  const tvg::Status copied = decoder->view->copy_attribute(attribute, values_of(*decoder, attribute),
+                                                           bytes_at(values, size), stride);
   return copied.ok() ? TVG_OK : tvg::c_api::code_of(copied.error());
 }
 

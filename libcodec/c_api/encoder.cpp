@@ -85,6 +85,7 @@ tvg::EncodeOptions options_of(const tvg_encoder_options& given) {
                             attribute_bits_of(given.colour_bits, usual.colour),
                             attribute_bits_of(given.generic_bits, usual.generic)};
   options.max_property_bytes = given.max_property_bytes;
+  options.max_animated_frame_bytes = given.max_animated_frame_bytes;
   if (given.has_box != 0) {
     options.box.emplace();
     options.box->extend(given.box_low[0], given.box_low[1], given.box_low[2]);
@@ -146,7 +147,7 @@ tvg_code tvg_encoder_create(const tvg_encoder_options* options, tvg_sink sink, v
     std::memcpy(&known, options, std::min(options->struct_size, sizeof known));
   }
   try {
-    *encoder = new tvg_encoder{options_of(known), sink_of(sink, user), {}, 0, {}, {}, {}};
+    *encoder = new tvg_encoder{options_of(known), sink_of(sink, user), {}, 0, {}, {}, {}, {}, {}};
     return TVG_OK;
   } catch (const std::exception&) {
     return TVG_ERROR_OUT_OF_MEMORY;
@@ -185,6 +186,10 @@ tvg_code tvg_encoder_set_mesh(tvg_encoder* encoder, uint32_t vertex_count, const
     if (first && !refused) encoder->encoder = std::move(first);
     if (status.ok()) {
       encoder->vertex_count = vertex_count;
+      encoder->animated_components.clear();
+      for (const tvg::Attribute& attribute : encoder->properties.attributes)
+        encoder->animated_components.push_back(attribute.animated ? attribute.components : 0);
+      encoder->values.assign(encoder->animated_components.size(), {});
       encoder->properties = {};
     }
     return status;
@@ -204,7 +209,8 @@ tvg_code tvg_encoder_add_frame(tvg_encoder* encoder, const void* positions, size
       std::memcpy(encoder->positions.data() + 3 * v, static_cast<const std::byte*>(positions) + stride * v,
                   12);
     }
-    return encoder->encoder->add_frame(encoder->positions);
+    const std::vector<std::span<const float>> values(encoder->values.begin(), encoder->values.end());
+    return encoder->encoder->add_frame(encoder->positions, {}, values);
   });
 }
 

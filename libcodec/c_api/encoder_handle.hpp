@@ -16,7 +16,10 @@ struct tvg_encoder {
   std::optional<tvg::Encoder> encoder;  ///< once there is a mesh
   std::uint32_t vertex_count = 0;
   tvg::MeshProperties properties;  ///< of the mesh to come
-  std::vector<float> positions;    ///< [vertex][xyz]
+  /// Of the mesh: [attribute], how many components it has where it is animated, else 0.
+  std::vector<std::uint32_t> animated_components;
+  std::vector<std::vector<float>> values;  ///< [attribute], of the frame to come
+  std::vector<float> positions;            ///< [vertex][xyz]
   std::string error_text;
 };
 

@@ -36,7 +36,8 @@ const char* fault_of(const tvg_attribute& given) {
   if (given.domain > TVG_DOMAIN_PART) return "there is no such domain of attributes";
   if (given.components < 1 || given.components > tvg::kMaxAttributeComponents)
     return "an attribute has one to four components";
-  if (given.value_count > 0 && given.values == nullptr) return "there are no values at null";
+  if (given.value_count > 0 && given.values == nullptr && given.animated == 0)
+    return "there are no values at null";
   if (given.stride != 0 && given.stride < given.components * sizeof(float))
     return "the stride is smaller than a value";
   if (given.corner_count > 0 && given.corners == nullptr) return "there are no corners at null";
@@ -48,6 +49,16 @@ int bits_of(std::uint32_t bits) {
   return bits == TVG_EXACT_BITS ? tvg::Attribute::kExact : static_cast<int>(std::min(bits, 1000u));
 }
 
+/// So many values that are `stride` bytes apart.
+std::vector<float> rows_of(const void* values, std::size_t count, std::size_t components,
+                           std::size_t stride) {
+  std::vector<float> rows(count * components);
+  for (std::size_t i = 0; i < count; ++i)
+    std::memcpy(rows.data() + components * i, static_cast<const std::byte*>(values) + stride * i,
+                components * sizeof(float));
+  return rows;
+}
+
 tvg::Attribute attribute_of(const tvg_attribute& given) {
   tvg::Attribute attribute;
   attribute.name = text_of(given.name);
@@ -55,11 +66,11 @@ tvg::Attribute attribute_of(const tvg_attribute& given) {
   attribute.domain = static_cast<tvg::AttributeDomain>(given.domain);
   attribute.components = given.components;
   attribute.bits = bits_of(given.bits);
-  const std::size_t row = given.components * sizeof(float), stride = given.stride == 0 ? row : given.stride;
-  attribute.values.resize(std::size_t{given.value_count} * given.components);
-  for (std::size_t i = 0; i < given.value_count; ++i)
-    std::memcpy(attribute.values.data() + given.components * i,
-                static_cast<const std::byte*>(given.values) + stride * i, row);
+  attribute.animated = given.animated != 0;
+  const std::size_t row = given.components * sizeof(float);
+  if (!attribute.animated)
+    attribute.values =
+        rows_of(given.values, given.value_count, given.components, given.stride == 0 ? row : given.stride);
   if (given.corner_count > 0) attribute.corners.assign(given.corners, given.corners + given.corner_count);
   return attribute;
 }
@@ -73,6 +84,22 @@ tvg_code tvg_encoder_add_attribute(tvg_encoder* encoder, const tvg_attribute* at
   if (const char* const fault = fault_of(*given)) return fail(*encoder, TVG_ERROR_INVALID_ARGUMENT, fault);
   return guarded(*encoder, [&] {
     encoder->properties.attributes.push_back(attribute_of(*given));
+    return tvg::Status();
+  });
+}
+
+tvg_code tvg_encoder_set_values(tvg_encoder* encoder, uint32_t attribute, const void* values, uint32_t count,
+                                size_t stride) {
+  if (encoder == nullptr) return TVG_ERROR_INVALID_ARGUMENT;
+  if (!encoder->encoder) return fail(*encoder, TVG_ERROR_WRONG_STATE, "there is no mesh yet");
+  if (attribute >= encoder->values.size() || encoder->animated_components[attribute] == 0)
+    return fail(*encoder, TVG_ERROR_INVALID_ARGUMENT, "the mesh has no animated attribute of this number");
+  const std::size_t components = encoder->animated_components[attribute];
+  if ((values == nullptr && count > 0) || stride < components * sizeof(float))
+    return fail(*encoder, TVG_ERROR_INVALID_ARGUMENT,
+                "there are no values at null, or the stride is smaller than a value");
+  return guarded(*encoder, [&] {
+    encoder->values[attribute] = rows_of(values, count, components, stride);
     return tvg::Status();
   });
 }

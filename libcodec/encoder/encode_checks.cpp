@@ -246,14 +246,15 @@ void declare_basis(StreamLimits& limits, const EncodeOptions& options) {
 
 }  // namespace
 
-StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options, std::uint64_t property_bytes) {
+StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options, std::uint64_t property_bytes,
+                        std::uint64_t animated_frame_bytes) {
   StreamLimits limits;
   limits.vertices = std::max(mesh.vertex_count, options.max_vertices);
   limits.faces = std::max(static_cast<std::uint32_t>(mesh.faces.size()), options.max_faces);
   limits.frames_per_gop = options.gop_frames;
   // 64 bits per coordinate: more than the worst residual can take.
-  limits.packet_bytes = static_cast<std::uint32_t>(
-      std::min<std::uint64_t>(256 + 24 * std::uint64_t{limits.vertices}, kMaxChunkLength));
+  limits.packet_bytes = static_cast<std::uint32_t>(std::min<std::uint64_t>(
+      256 + 24 * std::uint64_t{limits.vertices} + animated_frame_bytes, kMaxChunkLength));
   limits.meshes = options.max_meshes;
   limits.property_bytes = std::max(static_cast<std::uint32_t>(property_bytes), options.max_property_bytes);
   limits.mesh_bytes = most_mesh_bytes(limits, needs_shape(options), coarse_meshes_of(options));

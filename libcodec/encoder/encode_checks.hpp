@@ -31,7 +31,8 @@ Status resolve_max_error(EncodeOptions& options);
 
 /// What the head of a stream declares whose meshes are at most as large as this one and as the options say,
 /// with properties that take so many bytes or as many as the options say.
-StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options, std::uint64_t property_bytes);
+StreamLimits limits_for(const Mesh& mesh, const EncodeOptions& options, std::uint64_t property_bytes,
+                        std::uint64_t animated_frame_bytes);
 
 /// Adds data whose names are not there yet.
 void add_data(std::vector<NamedData>& data, std::span<const NamedData> more);

@@ -25,9 +25,12 @@ void take_facts(const SourceFacts& facts, const Mesh& first, EncodeOptions& opti
   options.max_property_bytes =
       std::max(options.max_property_bytes,
                static_cast<std::uint32_t>(std::min<std::uint64_t>(facts.property_bytes, UINT32_MAX)));
+  options.max_animated_frame_bytes =
+      std::max(options.max_animated_frame_bytes,
+               static_cast<std::uint32_t>(std::min<std::uint64_t>(facts.animated_frame_bytes, UINT32_MAX)));
   const std::uint32_t asked = options.max_meshes;
   for (options.max_meshes = std::max(asked, facts.meshes);
-       options.max_meshes > asked && limits_for(first, options, 0).decoder_memory > kMostMemoryForMeshes;)
+       options.max_meshes > asked && limits_for(first, options, 0, 0).decoder_memory > kMostMemoryForMeshes;)
     --options.max_meshes;
 }
 
@@ -78,10 +81,14 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
   }
   Encoder encoder(std::move(options), sink, std::move(with_total));
   FramePositions frame;
+  std::vector<std::span<const float>> values;
   for (SourceStep step = SourceStep::kMesh; step != SourceStep::kEnd;) {
+    values.clear();
+    for (std::size_t i = 0; i < source.properties().attributes.size(); ++i)
+      values.push_back(source.animated_values(i));
     Status status = step == SourceStep::kMesh
                         ? encoder.set_mesh(source.mesh(), source.skeleton(), source.properties())
-                        : encoder.add_frame(frame, source.joint_positions());
+                        : encoder.add_frame(frame, source.joint_positions(), values);
     if (!status.ok()) return status.error();
     const Result<SourceStep> next = read_step(source, frame);
     if (!next) return next.error();

@@ -45,16 +45,19 @@ Status check_kind(const Attribute& attribute, int bits, const std::string& who) 
   return {};
 }
 
-Status check_values(const Attribute& attribute, const MeshProperties& properties, const Mesh& mesh,
-                    const std::string& who) {
-  const bool of_corners = attribute.domain == AttributeDomain::kCorner;
-  const std::size_t count = attribute.value_count();
-  if (attribute.values.size() % attribute.components != 0)
+Status check_corners(const Attribute& attribute, const Mesh& mesh, const std::string& who) {
+  const std::size_t expected = attribute.domain == AttributeDomain::kCorner ? 3 * mesh.faces.size() : 0;
+  if (attribute.corners.size() == expected) return {};
+  return invalid_input(who + " names the values of " + std::to_string(attribute.corners.size()) +
+                       " corners, the mesh has " + std::to_string(3 * mesh.faces.size()));
+}
+
+/// The values of an attribute, in a frame where it is animated.
+Status check_values(const Attribute& attribute, std::span<const float> values,
+                    const MeshProperties& properties, const Mesh& mesh, const std::string& who) {
+  const std::size_t count = values.size() / attribute.components;
+  if (values.size() % attribute.components != 0)
     return invalid_input(who + " has a last value that is cut off");
-  if (of_corners ? attribute.corners.size() != 3 * mesh.faces.size() : !attribute.corners.empty()) {
-    return invalid_input(who + " names the values of " + std::to_string(attribute.corners.size()) +
-                         " corners, the mesh has " + std::to_string(3 * mesh.faces.size()));
-  }
   const auto beyond = std::find_if(attribute.corners.begin(), attribute.corners.end(),
                                    [&](std::uint32_t value) { return value >= count; });
   if (beyond != attribute.corners.end())
@@ -62,14 +65,17 @@ Status check_values(const Attribute& attribute, const MeshProperties& properties
                          std::to_string(*beyond));
   const bool of_vertices = attribute.domain == AttributeDomain::kVertex;
   const std::size_t expected = of_vertices ? mesh.vertex_count : properties.parts.size();
-  if (!of_corners && count != expected) {
+  if (attribute.domain != AttributeDomain::kCorner && count != expected) {
     return invalid_input(who + " has " + std::to_string(count) + " values for " + std::to_string(expected) +
                          (of_vertices ? " vertices" : " parts"));
   }
-  if (!std::all_of(attribute.values.begin(), attribute.values.end(),
-                   [](float x) { return std::isfinite(x); }))
+  if (!std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }))
     return invalid_input(who + " has a value that is infinite or not a number");
   return {};
+}
+
+std::string named(const Attribute& attribute, std::size_t number) {
+  return "attribute " + std::to_string(number) + " ('" + attribute.name + "')";
 }
 
 Status check_parts(const MeshProperties& properties, const Mesh& mesh) {
@@ -114,20 +120,42 @@ Status check_properties(const MeshProperties& properties, const Mesh& mesh, cons
     const Attribute& attribute = properties.attributes[i];
     if (!is_metadata_text(attribute.name))
       return invalid_input("the name of attribute " + std::to_string(i) + " is no text in UTF-8");
-    const std::string who = "attribute " + std::to_string(i) + " ('" + attribute.name + "')";
-    if (attribute.animated) return invalid_input(who + " is animated, which this version cannot write");
+    const std::string who = named(attribute, i);
     if (Status status = check_kind(attribute, settled_bits(attribute, bits), who); !status.ok())
       return status;
-    if (Status status = check_values(attribute, properties, mesh, who); !status.ok()) return status;
+    if (Status status = check_corners(attribute, mesh, who); !status.ok()) return status;
+    if (attribute.animated) continue;
+    if (Status status = check_values(attribute, attribute.values, properties, mesh, who); !status.ok())
+      return status;
   }
   if (property_bytes_of(properties, mesh) > 0xFFFFFFFF)
     return invalid_input("what the mesh has beside its connectivity takes more than 4 GiB");
   return {};
 }
 
+Status check_animated(const MeshProperties& properties, const Mesh& mesh,
+                      std::span<const std::span<const float>> values, std::uint64_t frame) {
+  for (std::size_t i = 0; i < properties.attributes.size(); ++i) {
+    const Attribute& attribute = properties.attributes[i];
+    if (!attribute.animated) continue;
+    if (i >= values.size())
+      return at_frame(frame, invalid_argument(named(attribute, i) + " is animated, and has no values here"));
+    Status status = check_values(attribute, values[i], properties, mesh, named(attribute, i));
+    if (!status.ok()) return at_frame(frame, status.error());
+  }
+  return {};
+}
+
 MeshProperties with_settled_bits(MeshProperties properties, const AttributeBits& bits) {
-  for (Attribute& attribute : properties.attributes) attribute.bits = settled_bits(attribute, bits);
+  for (Attribute& attribute : properties.attributes) {
+    attribute.bits = settled_bits(attribute, bits);
+    if (attribute.animated) attribute.values.clear();
+  }
   return properties;
+}
+
+std::uint64_t animated_frame_bytes_of(const MeshProperties& properties, const Mesh& mesh) {
+  return animated_frame_bytes(properties, mesh.vertex_count, mesh.faces.size());
 }
 
 std::uint64_t property_bytes_of(const MeshProperties& properties, const Mesh& mesh) {

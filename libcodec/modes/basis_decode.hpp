@@ -33,6 +33,7 @@ class BasisDecoder {
   Status check_digest(Bytes packet) const;
 
   const GopInfo& info() const { return info_; }
+  const Channels& channels() const { return channels_; }
   void copy_positions(void* positions, std::size_t stride) const;
   /// The nearest multiples of the step.
   void copy_lattice(std::span<std::int32_t> indices) const;

@@ -5,7 +5,7 @@
 #include "container/chunk.hpp"
 #include "container/plan_payload.hpp"
 #include "entropy/range_coder.hpp"
-#include "modes/channels.hpp"
+#include "modes/animated_encode.hpp"
 #include "modes/gop_flags_encode.hpp"
 
 #include <algorithm>
@@ -101,15 +101,13 @@ Result<EncodedGop> encode_rows(const GopInput& input, const GopMesh& mesh, Bytes
     digest.update(std::span<const std::int32_t>(frame));
     frames.push_back({Predictor::kRows, coder.finish()});
   }
-  ByteWriter fields;
-  write_channels(fields);
   GopHeader header;
   header.mesh = mesh.coded.id;
   header.first_frame = input.first_frame + first;
   header.planes = plan_ids;
   header.mode = kModeBasis;
-  header.fields = fields.data();
-  return write_gop(header, frames, digest.value(), limits);
+  return write_gop(header, std::move(frames), digest.value(), encode_channels(input, mesh, first, count),
+                   limits);
 }
 
 }  // namespace

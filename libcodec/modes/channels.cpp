@@ -18,9 +18,10 @@ GopInfo gop_info_of(const GopHeader& header, Mode mode) {
   return info;
 }
 
-void write_channels(ByteWriter& writer) {
-  writer.varint(1);
+void write_channels(ByteWriter& writer, std::span<const std::uint64_t> others) {
+  writer.varint(1 + others.size());
   writer.varint(kPositionsChannel);
+  for (const std::uint64_t channel : others) writer.varint(channel);
 }
 
 // format-spec §3.5, §4.5.1
@@ -57,11 +58,48 @@ Result<Bytes> positions_piece(const Channels& channels, Bytes packet) {
   return positions;
 }
 
-std::vector<std::uint8_t> write_digest(std::uint64_t positions) {
+Bytes piece_at(const Channels& channels, std::size_t place, Bytes packet) {
+  ByteReader reader(packet);
+  for (std::size_t i = 0; i + 1 < channels.count; ++i) {
+    const Bytes piece = reader.bytes(reader.varint());
+    if (i == place) return piece;
+  }
+  return reader.bytes(reader.left());
+}
+
+std::vector<std::uint8_t> write_pieces(std::vector<std::uint8_t> positions,
+                                       std::span<const EncodedChannel> others, std::size_t frame) {
+  if (others.empty()) return positions;
+  ByteWriter packet;
+  packet.varint(positions.size());
+  packet.bytes(positions);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const std::vector<std::uint8_t>& piece = others[i].pieces[frame];
+    if (i + 1 < others.size()) packet.varint(piece.size());
+    packet.bytes(piece);
+  }
+  return packet.take();
+}
+
+std::vector<std::uint8_t> write_digest(std::uint64_t positions, std::span<const EncodedChannel> others) {
   ByteWriter digest;
   digest.varint(kPositionsChannel);
   digest.u64(positions);
+  for (const EncodedChannel& channel : others) {
+    digest.varint(channel.number);
+    digest.u64(channel.digest);
+  }
   return digest.take();
+}
+
+std::uint64_t digest_at(std::size_t place, Bytes packet) {
+  ByteReader reader(packet);
+  std::uint64_t digest = 0;
+  for (std::size_t i = 0; i <= place; ++i) {
+    reader.varint();
+    digest = reader.u64();
+  }
+  return digest;
 }
 
 // format-spec §4.5.3

@@ -51,7 +51,6 @@ Fault parse(const GopHeader& header, ElpHeader& elp) {
 
 std::vector<std::uint8_t> write_elp_header(PredictorSet predictors, const Lattice& lattice, Bytes flags) {
   ByteWriter writer;
-  write_channels(writer);
   writer.u8(predictors.bits());
   writer.u8(static_cast<std::uint8_t>(lattice.fine_bits));
   writer.u8(static_cast<std::uint8_t>(lattice.coarse_bits));

@@ -40,6 +40,7 @@ struct ElpHeader {
   Bytes flags;  ///< coded flags; empty unless the lattice is hybrid
 };
 
+/// Without the channels, which come before.
 std::vector<std::uint8_t> write_elp_header(PredictorSet predictors, const Lattice& lattice, Bytes flags);
 /// Reads it into `elp`. kUnsupported where a channel is not known that must be.
 Status read_elp_header(const GopHeader& header, ElpHeader& elp);

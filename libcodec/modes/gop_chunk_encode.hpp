@@ -1,5 +1,6 @@
 #pragma once
 #include "container/gop_header.hpp"
+#include "modes/channels.hpp"
 
 #include <cstdint>
 #include <span>
@@ -21,9 +22,10 @@ struct EncodedGop {
   std::vector<std::uint8_t> chunk;
 };
 
-/// Writes a GOP: its header (whose counts are made to fit), its frames, and the digest of their positions.
-/// Fails with kLimitExceeded when a packet is larger than `limits` allow.
-Result<EncodedGop> write_gop(GopHeader header, std::span<const EncodedFrame> frames, std::uint64_t digest,
-                             const StreamLimits& limits);
+/// Writes a GOP: its header (whose counts are made to fit, and whose fields are given without the channels),
+/// its frames, whose content is that of positions, and the digest of these; and the other channels. Fails
+/// with kLimitExceeded when a packet is larger than `limits` allow.
+Result<EncodedGop> write_gop(GopHeader header, std::vector<EncodedFrame> frames, std::uint64_t digest,
+                             std::span<const EncodedChannel> others, const StreamLimits& limits);
 
 }  // namespace tvg

@@ -1,5 +1,6 @@
 #include "modes/gop_encoder.hpp"
 
+#include "modes/animated_encode.hpp"
 #include "modes/basis_encode.hpp"
 #include "modes/elp_encode.hpp"
 #include "modes/lossless_encode.hpp"
@@ -22,7 +23,8 @@ Result<EncodedRun> encode_gop_in(const GopInput& input, const GopMesh& mesh, con
   header.first_frame = input.first_frame;
   header.mode = static_cast<std::uint64_t>(input.mode);
   header.fields = fields;
-  Result<EncodedGop> gop = write_gop(header, frames, mode.digest(), limits);
+  Result<EncodedGop> gop = write_gop(header, std::move(frames), mode.digest(),
+                                     encode_channels(input, mesh, 0, input.frames.size()), limits);
   if (!gop) return gop.error();
   EncodedRun run;
   run.gops.push_back(std::move(*gop));

@@ -20,9 +20,14 @@ struct BasisInput {
   FitEffort effort;
 };
 
+/// The values of animated attributes in one frame, [animated attribute], as those were given.
+using FrameValues = std::vector<std::vector<float>>;
+
 /// Frames to be encoded together: a GOP, or in mode basis a period.
 struct GopInput {
   std::span<const FramePositions> frames;  ///< [frame][vertex][xyz], in the order of the input mesh
+  /// [frame][animated attribute][value][component]; not looked at where the mesh has no such attributes.
+  std::span<const FrameValues> values;
   Mode mode = Mode::kElp;
   std::uint64_t first_frame = 0;  ///< number of its first frame in the sequence it comes from
   Lattice lattice;

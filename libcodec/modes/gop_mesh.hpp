@@ -1,4 +1,5 @@
 #pragma once
+#include "attributes/animated_attributes.hpp"
 #include "connectivity/mesh_coder.hpp"
 #include "container/mesh_payload.hpp"
 #include "planes/reference_shape.hpp"
@@ -18,6 +19,7 @@ struct GopMesh {
   std::optional<Pyramid> pyramid;  ///< where the mesh has a reference shape (§5.4)
   ReferenceShape shape;            ///< which the pyramid is made of; empty where there is none
   MeshProperties properties;       ///< decoded; empty for an encoder and where a coarser mesh is drawn
+  AnimatedAttributes animated;     ///< empty where a coarser mesh is drawn
 };
 
 /// Decodes a mesh from the sections of its chunk (format-spec §4.3), to be drawn as its coarser mesh of

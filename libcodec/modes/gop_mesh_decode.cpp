@@ -45,8 +45,8 @@ Result<GopMesh> decode_gop_mesh(const MeshLayout& layout, std::uint32_t id, cons
   if (!faces) return faces.error();
   if (Status status = decode_shape(layout, *faces, limits, mesh); !status.ok()) return status.error();
   if (mesh.coded.info.lod > 0) return mesh;
-  Result<MeshProperties> properties =
-      decode_properties(layout, mesh.coded, *faces, layout.shape.empty() ? nullptr : &mesh.shape, limits);
+  Result<MeshProperties> properties = decode_properties(
+      layout, mesh.coded, *faces, layout.shape.empty() ? nullptr : &mesh.shape, limits, mesh.animated);
   if (!properties) return properties.error();
   mesh.properties = std::move(*properties);
   return mesh;

@@ -44,8 +44,8 @@ ReferenceShape shape_of(const CodedMesh& mesh, std::span<const float> frame, con
 }  // namespace
 
 EncodedGopMesh finish_mesh(EncodedMesh encoded, const MeshProperties& properties) {
-  encode_properties(properties, nullptr, encoded);
   EncodedGopMesh result;
+  encode_properties(properties, nullptr, encoded, result.mesh.animated);
   result.payload = mesh_payload(encoded);
   result.polygons_left_out = encoded.polygons_left_out;
   result.mesh.coded = std::move(encoded.coded);
@@ -64,8 +64,8 @@ Result<EncodedGopMesh> finish_mesh(EncodedMesh encoded, std::span<const float> f
   Result<Pyramid> pyramid = build_pyramid(*faces, encoded.coded.mesh.vertex_count, shape.indices,
                                           shape.neighbours, encoded.coded.levels);
   if (!pyramid) return pyramid.error();
-  encode_properties(properties, &shape, encoded);
   EncodedGopMesh result;
+  encode_properties(properties, &shape, encoded, result.mesh.animated);
   result.payload = mesh_payload(encoded, encode_reference_shape(shape, *faces));
   result.polygons_left_out = encoded.polygons_left_out;
   result.mesh.coded = std::move(encoded.coded);

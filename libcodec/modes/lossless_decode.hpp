@@ -32,6 +32,7 @@ class LosslessDecoder {
   Status check_digest(Bytes packet) const;
 
   const GopInfo& info() const { return info_; }
+  const Channels& channels() const { return channels_; }
   /// The frame taken last: vertex v's x, y, z as float32 at `positions` + v * `stride`.
   void copy_positions(void* positions, std::size_t stride) const;
   /// [vertex][xyz]: the bits of float32 coordinates, ordered().

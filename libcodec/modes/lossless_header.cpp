@@ -31,7 +31,6 @@ Fault parse(const GopHeader& header, LosslessHeader& lossless) {
 
 std::vector<std::uint8_t> write_lossless_header(const LineChoice& line) {
   ByteWriter writer;
-  write_channels(writer);
   writer.u8(line.multiples ? kMultiples : kFloats);
   writer.u8(
       static_cast<std::uint8_t>(line.multiples ? line.exponent - NumberLine::kLeastExponent : line.low_bits));

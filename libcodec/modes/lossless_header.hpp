@@ -29,6 +29,7 @@ struct LosslessHeader {
   LineChoice line;
 };
 
+/// Without the channels, which come before.
 std::vector<std::uint8_t> write_lossless_header(const LineChoice& line);
 /// Reads it into `lossless`. kUnsupported where a channel is not known that must be.
 Status read_lossless_header(const GopHeader& header, LosslessHeader& lossless);

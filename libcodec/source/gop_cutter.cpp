@@ -16,10 +16,12 @@ std::shared_ptr<const GopFrames> first_frame_of(const GopFrames& content) {
 
 }  // namespace
 
-std::optional<GopContent> GopCutter::add(FramePositions frame, std::vector<float> joints) {
+std::optional<GopContent> GopCutter::add(FramePositions frame, std::vector<float> joints,
+                                         std::vector<std::vector<float>> values) {
   if (present_ == nullptr) present_ = std::make_shared<GopFrames>();
   present_->frames.push_back(std::move(frame));
   if (!joints.empty()) present_->joints.push_back(std::move(joints));
+  present_->values.push_back(std::move(values));
   ++frames_;
   return present_->frames.size() == gop_frames_ ? flush() : std::nullopt;
 }

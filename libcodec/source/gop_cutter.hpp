@@ -12,6 +12,8 @@ namespace tvg {
 struct GopFrames {
   std::vector<FramePositions> frames;      ///< [frame][vertex][xyz], in the order of the input mesh
   std::vector<std::vector<float>> joints;  ///< [frame][joint][xyz]; empty unless the measure uses them
+  /// [frame][animated attribute][value][component]
+  std::vector<std::vector<std::vector<float>>> values;
 };
 
 /// The frames of a GOP. They are shared: those of one GOP may mark the next.
@@ -27,8 +29,10 @@ class GopCutter {
   /// `low_delay`: as Importance has it.
   GopCutter(std::uint32_t gop_frames, bool low_delay) : gop_frames_(gop_frames), low_delay_(low_delay) {}
 
-  /// Takes the next frame and, where the measure uses them, its joints; gives the GOP that it completes.
-  std::optional<GopContent> add(FramePositions frame, std::vector<float> joints);
+  /// Takes the next frame, the values of its animated attributes and, where the measure uses them, its
+  /// joints; gives the GOP that it completes.
+  std::optional<GopContent> add(FramePositions frame, std::vector<float> joints,
+                                std::vector<std::vector<float>> values = {});
   /// The GOP of the frames that are left, if any.
   std::optional<GopContent> flush();
 

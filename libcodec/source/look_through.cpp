@@ -28,7 +28,7 @@ class MeshHash {
            {static_cast<std::uint64_t>(attribute.kind), static_cast<std::uint64_t>(attribute.domain),
             std::uint64_t{attribute.components}, std::uint64_t{attribute.animated}})
         add_number(number);
-      add(attribute.values);
+      if (!attribute.animated) add(attribute.values);
       add(attribute.corners);
     }
     add_number(properties.parts.size());
@@ -120,10 +120,12 @@ Result<std::optional<SourceFacts>> look_through(FrameSource& source) {
     if (step == SourceStep::kMesh) {
       if (Status status = check_mesh(source.mesh()); !status.ok()) return status.error();
       meshes.add(source);
+      const std::uint64_t vertices = source.mesh().vertex_count, faces = source.mesh().faces.size();
       facts.vertices = std::max(facts.vertices, source.mesh().vertex_count);
-      facts.property_bytes = std::max(
-          facts.property_bytes,
-          property_bytes(source.properties(), source.mesh().vertex_count, source.mesh().faces.size()));
+      facts.property_bytes =
+          std::max(facts.property_bytes, property_bytes(source.properties(), vertices, faces));
+      facts.animated_frame_bytes =
+          std::max(facts.animated_frame_bytes, animated_frame_bytes(source.properties(), vertices, faces));
       facts.faces = std::max(facts.faces, static_cast<std::uint32_t>(source.mesh().faces.size()));
     } else {
       if (Status status = check_frame(frame, facts.frames); !status.ok()) return status.error();

@@ -13,6 +13,7 @@ struct SourceFacts {
   std::uint32_t vertices = 0;        ///< of the mesh that has most
   std::uint32_t faces = 0;           ///< of the mesh that has most
   std::uint64_t property_bytes = 0;  ///< of the mesh that has most beside its connectivity (format-spec §5.7)
+  std::uint64_t animated_frame_bytes = 0;  ///< that animated attributes of any mesh may take of a frame
   std::uint64_t frames = 0;
   std::uint64_t stretches = 0;  ///< runs of frames of one mesh
   /// How many of the latest meshes are worth keeping, 1 to kMostMeshesKept: more make fewer to be sent again.

@@ -23,7 +23,8 @@ Result<MeshProperties> properties_of(const MeshLayout& layout, const StreamLimit
     if (!decoded) return decoded.error();
     shape = std::move(*decoded);
   }
-  return decode_properties(layout, *coded, *faces, shape ? &*shape : nullptr, limits);
+  AnimatedAttributes animated;
+  return decode_properties(layout, *coded, *faces, shape ? &*shape : nullptr, limits, animated);
 }
 
 }  // namespace

@@ -34,12 +34,14 @@ struct Coded {
                   values(AttributeKind::kGeneric, AttributeDomain::kVertex, 1, 24),
                   values(AttributeKind::kGeneric, AttributeDomain::kVertex, 3, Attribute::kExact),
                   values(AttributeKind::kGeneric, AttributeDomain::kPart, 2, 5)};
-    section = encode_attributes(attributes, seen, connectivity.first_corners);
+    AnimatedAttributes animated;
+    section = encode_attributes(attributes, seen, connectivity.first_corners, kParts, animated);
   }
 
   Result<std::vector<Attribute>> decode(std::span<const std::uint8_t> bytes) const {
     PropertyBudget budget(std::numeric_limits<std::uint32_t>::max());
-    return decode_attributes(bytes, seen, kParts, budget);
+    AnimatedAttributes animated;
+    return decode_attributes(bytes, seen, kParts, budget, animated);
   }
 
   static constexpr std::size_t kParts = 5;
@@ -65,7 +67,9 @@ TEST(Attributes, ComeBackTheSameWhenTheyAreCodedAgain) {
       std::vector<std::uint32_t> first(mesh.faces.size());
       for (std::uint32_t f = 0; f < first.size(); ++f) first[f] = 3 * f;
       std::vector<Attribute> exact = *decoded;
-      const std::vector<std::uint8_t> again = encode_attributes(exact, coded.seen, first);
+      AnimatedAttributes animated;
+      const std::vector<std::uint8_t> again =
+          encode_attributes(exact, coded.seen, first, Coded::kParts, animated);
       const Result<std::vector<Attribute>> twice = coded.decode(again);
       ASSERT_TRUE(twice) << twice.error().describe();
       for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -86,7 +90,8 @@ TEST(Attributes, WithTheSameSeamsPayForThemOnce) {
       attribute_of("", AttributeKind::kTexcoord, AttributeDomain::kCorner, 2, 1), mesh, 0.2, random);
   Attribute flat = one;  // of one value, but for the seams
   const auto size = [&](std::vector<Attribute> attributes) {
-    return encode_attributes(attributes, seen, connectivity.first_corners).size();
+    AnimatedAttributes animated;
+    return encode_attributes(attributes, seen, connectivity.first_corners, 0, animated).size();
   };
   EXPECT_LT(size({one, flat}) - size({one}), size({one}) - 100);
 }
@@ -128,9 +133,10 @@ TEST(Attributes, AreNotDecodedBeyondTheBudget) {
     bytes += attribute_bytes({coded.mesh.vertex_count, coded.mesh.faces.size(), Coded::kParts},
                              attribute.domain, attribute.components, attribute.name.size());
   PropertyBudget enough(bytes), short_of_one(bytes - 1);
-  EXPECT_TRUE(decode_attributes(coded.section, coded.seen, Coded::kParts, enough));
+  AnimatedAttributes animated;
+  EXPECT_TRUE(decode_attributes(coded.section, coded.seen, Coded::kParts, enough, animated));
   const Result<std::vector<Attribute>> refused =
-      decode_attributes(coded.section, coded.seen, Coded::kParts, short_of_one);
+      decode_attributes(coded.section, coded.seen, Coded::kParts, short_of_one, animated);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kLimitExceeded);
 }

@@ -20,6 +20,14 @@ PredictorSet all_predictors() {
   return PredictorSet(15);
 }
 
+/// What the mode has behind the channels, with positions as the only one before it.
+Buffer with_positions(Bytes fields) {
+  ByteWriter writer;
+  write_channels(writer, {});
+  writer.bytes(fields);
+  return writer.take();
+}
+
 Result<ElpHeader> read(Bytes fields) {
   GopHeader header;
   header.fields = fields;
@@ -33,13 +41,13 @@ Buffer with_channels(const std::vector<std::uint64_t>& channels) {
   ByteWriter writer;
   writer.varint(channels.size());
   for (const std::uint64_t channel : channels) writer.varint(channel);
-  writer.bytes(Bytes(write_elp_header(all_predictors(), some_lattice(), {})).subspan(2));
+  writer.bytes(write_elp_header(all_predictors(), some_lattice(), {}));
   return writer.take();
 }
 
 TEST(ElpHeader, ComesBack) {
   const Buffer flags = {8, 9};
-  const Buffer fields = write_elp_header(all_predictors(), some_lattice(), flags);
+  const Buffer fields = with_positions(write_elp_header(all_predictors(), some_lattice(), flags));
   const Result<ElpHeader> back = read(fields);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->lattice, some_lattice());
@@ -67,18 +75,20 @@ TEST(ElpHeader, EveryFieldOutOfRangeIsRefused) {
   for (const auto& [name, fault] : faults) {
     Lattice lattice = some_lattice();
     fault(lattice);
-    const Result<ElpHeader> refused = read(write_elp_header(all_predictors(), lattice, {}));
+    const Result<ElpHeader> refused = read(with_positions(write_elp_header(all_predictors(), lattice, {})));
     ASSERT_FALSE(refused) << name;
     EXPECT_EQ(refused.error().code, ErrorCode::kMalformed) << name;
   }
   Lattice one = some_lattice();
   one.coarse_bits = one.fine_bits;
-  EXPECT_FALSE(read(write_elp_header(all_predictors(), one, Buffer{0}))) << "flags of one lattice";
+  EXPECT_FALSE(read(with_positions(write_elp_header(all_predictors(), one, Buffer{0}))))
+      << "flags of one lattice";
 }
 
 TEST(ElpHeader, PredictorsThatAreNotKnownAreUnsupportedAndOneIsForTheFirstFrame) {
   const auto code = [](std::uint8_t predictors) {
-    const Result<ElpHeader> header = read(write_elp_header(PredictorSet(predictors), some_lattice(), {}));
+    const Result<ElpHeader> header =
+        read(with_positions(write_elp_header(PredictorSet(predictors), some_lattice(), {})));
     return header ? ErrorCode::kIo : header.error().code;
   };
   EXPECT_EQ(code(0x10), ErrorCode::kUnsupported);
@@ -123,7 +133,7 @@ TEST(ElpHeader, PositionsAreTheFirstPieceOfAPacketAndTheFirstDigest) {
   digest.u64(99);
   EXPECT_TRUE(compare_digest(channels, digest.data(), 1234).ok());
   EXPECT_EQ(compare_digest(channels, digest.data(), 1235).error().code, ErrorCode::kDigestMismatch);
-  EXPECT_TRUE(compare_digest(Channels(), write_digest(5678), 5678).ok());
+  EXPECT_TRUE(compare_digest(Channels(), write_digest(5678, {}), 5678).ok());
 }
 
 }  // namespace

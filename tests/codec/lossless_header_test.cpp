@@ -27,7 +27,9 @@ TEST(LosslessHeader, ComesBack) {
   for (const LineChoice& line :
        {LineChoice{}, LineChoice{.low_bits = 23}, LineChoice{.multiples = true, .exponent = -149},
         LineChoice{.multiples = true, .exponent = 103}}) {
-    const Buffer fields = write_lossless_header(line);
+    Buffer fields = {1, 1};
+    const Buffer behind = write_lossless_header(line);
+    fields.insert(fields.end(), behind.begin(), behind.end());
     const Result<LosslessHeader> back = read(fields);
     ASSERT_TRUE(back);
     EXPECT_EQ(back->line, line);

@@ -79,13 +79,15 @@ Stream long_chunk(ChunkType type, std::uint32_t length, bool ancillary = true) {
 std::vector<Stream> empty_frames() {
   Stream mesh = write_chunk(kMeshChunk, false, write_mesh({1, 0, false, Stream{0}, {}}));
   ByteWriter gop;
-  const Stream fields = write_elp_header(
-      PredictorSet(15), {.origin = {0, 0, 0}, .step = 1e-300, .fine_bits = 24, .coarse_bits = 1}, {});
+  ByteWriter fields;
+  write_channels(fields, {});
+  fields.bytes(write_elp_header(
+      PredictorSet(15), {.origin = {0, 0, 0}, .step = 1e-300, .fine_bits = 24, .coarse_bits = 1}, {}));
   GopHeader header;
   header.mesh = chunk_id(mesh);
   header.frame_count = 1u << 16;
   header.packet_count = kHuge;
-  header.fields = fields;
+  header.fields = fields.data();
   write_packet(gop, 0, packet_kind::kHeader, write_gop_header(header));
   gop.u8(packet_kind::kFrame);
   gop.varint(kHuge);

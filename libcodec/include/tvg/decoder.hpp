@@ -152,8 +152,9 @@ class Decoder {
   const Mesh& mesh() const;
   const MeshInfo& mesh_info() const;
   /// What mesh() has beside its connectivity, in terms of its vertices and faces: a value of a corner is
-  /// there once for the faces around a vertex that share it, and `bits` are those that were used. Empty where
-  /// there is nothing, and for a coarser mesh (use_lod()).
+  /// there once for the faces around a vertex that share it, and `bits` are those that were used. Of animated
+  /// attributes the values are 0: animated_values() has them. Empty where there is nothing, and for a coarser
+  /// mesh (use_lod()).
   const MeshProperties& properties() const;
   /// Coarser meshes that the current mesh has.
   std::uint32_t lod_count() const;
@@ -177,6 +178,11 @@ class Decoder {
   /// lossless the bits of each float32 coordinate as an integer in the order of the numbers: the bits, or for
   /// a set sign -1 less the other bits. 3 * vertex_count values.
   void copy_lattice(std::span<std::int32_t> indices) const;
+  /// The values of an animated attribute, by its place in properties(), in the current frame,
+  /// [value][component]; empty for one that is not animated. Valid until the next poll().
+  std::span<const float> animated_values(std::size_t attribute) const;
+  /// Bytes that they take of the current frame's packet.
+  std::uint64_t animated_bytes(std::size_t attribute) const;
   /// Importance of each vertex in the current GOP, 0 or 1. vertex_count values.
   void copy_flags(std::span<std::uint8_t> flags) const;
 

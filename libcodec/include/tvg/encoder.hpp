@@ -78,6 +78,8 @@ struct EncodeOptions {
   std::uint32_t max_vertices = 0;
   std::uint32_t max_faces = 0;
   std::uint32_t max_property_bytes = 0;  ///< of what meshes have beside connectivity (property_bytes_of())
+  /// Of what the values of animated attributes may take of a frame (animated_frame_bytes_of()).
+  std::uint32_t max_animated_frame_bytes = 0;
   /// How many meshes a decoder must keep, 1 to 65536: one of the last so many that comes again is not sent
   /// again.
   std::uint32_t max_meshes = 1;
@@ -132,6 +134,12 @@ class Encoder {
   /// box larger than cells of the step of the options can fill; kInvalidInput for what is not finite or
   /// outside the box of the options.
   Status add_frame(std::span<const float> positions, std::span<const float> joints = {});
+  /// The same where the mesh has animated attributes: `values` are those of each of its attributes in this
+  /// frame, [attribute][value][component], copied too; what is not animated is not looked at. Of vertices and
+  /// parts there are as many as those, of corners at least as many as `corners` name. kInvalidArgument where
+  /// there are none, kInvalidInput where they are others or not finite.
+  Status add_frame(std::span<const float> positions, std::span<const float> joints,
+                   std::span<const std::span<const float>> values);
 
   /// Ends the stream. kInvalidInput where there was no frame. Nothing may follow.
   Result<EncodeReport> finish();
@@ -144,6 +152,10 @@ class Encoder {
 /// What properties count for against EncodeOptions::max_property_bytes and StreamLimits::property_bytes
 /// (format-spec §5.7).
 std::uint64_t property_bytes_of(const MeshProperties& properties, const Mesh& mesh);
+
+/// What the values of animated attributes may take of a frame, against
+/// EncodeOptions::max_animated_frame_bytes.
+std::uint64_t animated_frame_bytes_of(const MeshProperties& properties, const Mesh& mesh);
 
 /// Pushes a sequence through an encoder, mesh after mesh. Where the mesh does not change, and the options
 /// have a box or a step and no largest error, or are lossless, the source is read once, from where it stands,

@@ -38,6 +38,13 @@ class StreamEncoder {
   tvg_code add_attribute(const tvg_attribute& attribute) {
     return tvg_encoder_add_attribute(get(), &attribute);
   }
+  /// [value][component], `count` floats, for the frame that comes next.
+  tvg_code set_values(std::uint32_t attribute, const float* values, std::size_t count,
+                      std::uint32_t components) {
+    const std::size_t values_given = components == 0 ? 0 : count / components;
+    return tvg_encoder_set_values(get(), attribute, values, static_cast<std::uint32_t>(values_given),
+                                  components * sizeof(float));
+  }
   tvg_code add_part(const char* object, const char* group, const char* material) {
     const tvg_part_info part = {sizeof part, object, group, material};
     return tvg_encoder_add_part(get(), &part);

@@ -74,6 +74,8 @@ typedef struct tvg_encoder_options {
   uint32_t generic_bits;       /* of each component; TVG_EXACT_BITS unless set */
   uint32_t max_property_bytes; /* what attributes, parts and polygons of the meshes to come may take; 0 unless
                                   set: as much as those of the first mesh */
+  uint32_t max_animated_frame_bytes; /* what the values of animated attributes of the meshes to come may take
+                                        of a frame; 0 unless set: as much as those of the first mesh */
 } tvg_encoder_options;
 
 /* What was encoded, or joined. */

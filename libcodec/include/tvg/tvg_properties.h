@@ -160,11 +160,19 @@ typedef struct tvg_attribute {
   uint32_t value_count;    /* one for each vertex or part; of corners as many as there are */
   const uint32_t* corners; /* of TVG_DOMAIN_CORNER, [face][corner]: which value it has; else null */
   size_t corner_count;     /* 3 * face_count; else 0 */
+  uint32_t animated;       /* not 0: each frame has values of its own (tvg_encoder_set_values); those here
+                              are not looked at */
 } tvg_attribute;
 
 /* What these add, the mesh has that tvg_encoder_set_mesh takes next; where that fails, it is kept for the
    next call. What does not fit the mesh is an error (TVG_ERROR_INVALID_INPUT) of tvg_encoder_set_mesh. */
 TVG_API tvg_code tvg_encoder_add_attribute(tvg_encoder* encoder, const tvg_attribute* attribute);
+/* The values that an animated attribute of the mesh has from the frame on that tvg_encoder_add_frame takes
+   next, until others are set: value i is at `values` + i * `stride` bytes, float32 [component]. There are
+   `count` of them, one for each vertex or part; of corners as many as there are. The first frame of a mesh
+   needs them all. */
+TVG_API tvg_code tvg_encoder_set_values(tvg_encoder* encoder, uint32_t attribute, const void* values,
+                                        uint32_t count, size_t stride);
 /* Parts are numbered in the order they are added; texts may be null. */
 TVG_API tvg_code tvg_encoder_add_part(tvg_encoder* encoder, const tvg_part_info* part);
 /* The part of each face; needed where there are parts. */
