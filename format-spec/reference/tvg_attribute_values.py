@@ -23,7 +23,7 @@ class Values:
         self.wedge, self.corners_of = attribute.wedge, attribute.corners_of
         self.models = coding.ReferenceShape(coder, [], 0, 1)
         self.running, self.last = [4096] * 4, None
-        self.x, self.numbers, self.missed, self.size = ([None] * attribute.W for _ in range(4))
+        self.x, self.numbers, self.integers, self.missed, self.size = ([None] * attribute.W for _ in range(5))
 
     def require(self, condition, what):
         self.coding.require(condition, "5.7", what)
@@ -91,7 +91,7 @@ class Fields(Values):
             if self.exact:
                 integers.append(self.exact_number(w, c, m[c], beside))
                 continue
-            y = clamp(m[c], 0.0, float(self.L))
+            y = clamp(self.number_at(w, c, m[c]), 0.0, float(self.L))
             predicted = math.floor(y + 0.5)
             lost = math.trunc((y - predicted) * 16)
             spread = summed(share * abs(value[c] - m[c]) for share, value in zip(credit, G))
@@ -106,18 +106,25 @@ class Fields(Values):
                 a = area(n, p, self.x[w])
                 self.turn = clamp(self.turn + (a > 0) - (a < 0), -4, 4)
 
+    def number_at(self, _w, _c, m):
+        """(What is predicted; by time it is a change, §5.7.7.)"""
+        return m
+
+    def x_of(self, _w, numbers):
+        return numbers
+
+    def coded_numbers(self, integers):
+        return tuple(map(float_of if self.exact else float, integers))
+
     def keep(self, w, integers):
-        if self.exact:
-            self.numbers[w] = tuple(map(float_of, integers))
-            self.x[w] = self.numbers[w]
-        else:
-            self.numbers[w] = tuple(binary32(o + i * self.attribute.range / self.L)
-                                    for o, i in zip(self.attribute.origin, integers))
-            self.x[w] = tuple(map(float, integers))
-        self.last = self.x[w]
+        self.integers[w] = tuple(integers)
+        coded = self.coded_numbers(integers)
+        self.numbers[w] = coded if self.exact else tuple(binary32(o + i * self.attribute.range / self.L)
+                                                         for o, i in zip(self.attribute.origin, integers))
+        self.x[w] = self.last = self.x_of(w, coded)
 
     def exact_number(self, w, c, m, beside):
-        predicted = ordered(bits_of(binary32(m)))
+        predicted = ordered(bits_of(binary32(self.number_at(w, c, m))))
         number = predicted + self.exact_residual(predicted, *self.exact_models(w, c, beside))
         number = (number + 2 ** 31) % 2 ** 32 - 2 ** 31
         self.require(-1 - 0x7F7FFFFF <= number <= 0x7F7FFFFF, "a number that is not finite")
@@ -165,9 +172,13 @@ class Fields(Values):
             if surface.places:
                 self.by_shape(c, g, x[n], x[p], o)
         G = [[s / weight for s in total] if weight > 0 else None for total, weight in zip(self.sum, self.weight)]
+        G[3] = self.fourth(w, G[3])
         G[1] = G[1] or self.last or [0.0] * self.attribute.C
-        G[0] = G[0] or G[3] or G[1]
+        G[0] = G[0] or (G[3] if self.flat else None) or G[1]
         return wings, [opinion or G[0] for opinion in G[:self.K]]
+
+    def fourth(self, _w, said):
+        return said
 
     def say(self, k, v, share):
         self.sum[k] = [s + share * number for s, number in zip(self.sum[k], v)]
@@ -247,12 +258,16 @@ class Normals(Values):
         G = self.opinions(w, beside)
         M, credit = self.mixed(G, beside, self.usual, 0.0002)
         self.size[w] = []
-        if self.coder.bit(self.none):
-            self.size[w], self.x[w] = [0, 0], (0.0, 0.0, 0.0)
+        if self.coder.bit(self.none_of(w)):
+            self.size[w], self.x[w], self.integers[w] = [0, 0], (0.0, 0.0, 0.0), (self.L + 1, self.L + 1)
         else:
-            self.x[w] = unfold(*self.folded(w, beside, G, M, credit), self.m)
+            self.integers[w] = self.folded(w, beside, G, M, credit)
+            self.x[w] = unfold(*self.integers[w], self.m)
         self.numbers[w] = self.last = self.x[w]
         self.learn(w, [apart(self.x[w], opinion) for opinion in G], self.usual)
+
+    def none_of(self, _w):
+        return self.none
 
     def folded(self, w, beside, G, M, credit):
         """s and t."""

@@ -19,6 +19,7 @@ class Attribute:
             coding.require(condition, "5.7", what)
 
         self.kind, self.domain, self.C, self.bits = (reader.unsigned(1) for _ in range(4))
+        self.animated, self.domain = self.domain >= 128, self.domain % 128
         require(self.kind <= GENERIC, "kind of an attribute")
         require(self.domain <= PARTS, "domain of an attribute")
         require(self.C in {NORMAL: (3,), COLOUR: (3, 4)}.get(self.kind, (1, 2, 3, 4)), "components of an attribute")
@@ -28,15 +29,20 @@ class Attribute:
         coding.text(self.name, "5.7")
         self.octahedral = self.kind == NORMAL and self.bits > 0
         self.origin, self.range = [0.0] * self.C, 0.0
+        if not self.animated:
+            self.read_steps(reader, coding)
+
+    def read_steps(self, reader, coding):
         if self.bits > 0 and not self.octahedral:
             self.origin = list(struct.unpack(f"<{self.C}f", reader.take(4 * self.C)))
             self.range = reader.f64()
-            require(all(map(math.isfinite, self.origin)), "origin of an attribute")
-            require(math.isfinite(self.range) and self.range >= 0, "range of an attribute")
+            coding.require(all(map(math.isfinite, self.origin)), "5.7", "origin of an attribute")
+            coding.require(math.isfinite(self.range) and self.range >= 0, "5.7", "range of an attribute")
 
     def cost(self, surface, P):
         size = {VERTICES: 4 * self.C * surface.V, CORNERS: 12 * surface.F * (1 + self.C), PARTS: 4 * self.C * P}
-        return 256 + len(self.name) + size[self.domain]
+        cost = 256 + len(self.name) + size[self.domain]
+        return 5 * cost + 2 ** 15 + 48 * surface.F if self.animated else cost
 
     def read_wedges(self, coder, surface, P, earlier, coding):
         """5.7.2: wedge[c] of each corner, the corners of each wedge, and how many those are."""
@@ -50,15 +56,16 @@ class Attribute:
             for c, w in enumerate(self.wedge):
                 self.corners_of[w].append(c)
 
-    def read_values(self, coder, surface, coding):
-        kind = self.NORMALS if self.octahedral else self.FIELDS
-        decoder = kind(self, coder, surface, coding)
+    def read_values(self, coder, surface, coding, kinds=None):
+        fields, normals = kinds or (self.FIELDS, self.NORMALS)
+        decoder = (normals if self.octahedral else fields)(self, coder, surface, coding)
         self.decoded = [False] * self.W
         for w in self.order():
             beside = [self.wedge[i] for c in self.corners_of[w] for i in (next_of(c), prev_of(c))]
             decoder.decode(w, [u for u in beside if self.decoded[u]])
             self.decoded[w] = True
         self.values = decoder.numbers
+        return decoder
 
     def order(self):
         """5.7.3 Each wedge in its turn; the one before is decoded by then."""
@@ -90,6 +97,9 @@ def attributes_of(data, surface, P, room, coding):
     coder, earlier = coding.RangeDecoder(reader.rest(), "5.7"), []
     for attribute in attributes:
         attribute.read_wedges(coder, surface, P, earlier, coding)
-        attribute.read_values(coder, surface, coding)
+        if attribute.animated:
+            attribute.values = [(0.0,) * attribute.C] * attribute.W
+        else:
+            attribute.read_values(coder, surface, coding)
     coder.finish()
     return attributes, cost

@@ -1,6 +1,7 @@
 """What a mesh has beside its connectivity: sections 2, 4 and 6 of MESH (5.7 to 5.9), and how they are given out."""
 import struct
 
+from tvg_animated import Channel
 from tvg_attributes import CORNERS, VERTICES, attributes_of
 from tvg_corners import Surface, next_of, prev_of
 from tvg_parts import Fans, Parts
@@ -33,6 +34,11 @@ class Properties:
                 yield first, len(fan) + 2
             first += len(fan)
 
+    def channels(self, coding):
+        """What decodes the animated attributes of a GOP, by the number of the channel (5.7.7)."""
+        return {2 + 2 * i: Channel(attribute, self.surface, coding)
+                for i, attribute in enumerate(self.attributes) if attribute.animated}
+
     def dump(self, drawn):
         """What digests.txt covers of them (see corpus/manifest.md); drawn: the vertices in output order."""
         data, polygons = bytearray(), list(self.polygons())
@@ -50,12 +56,9 @@ class Properties:
         for attribute in self.attributes:
             put(attribute.kind, attribute.domain, attribute.C, attribute.bits)
             put_text(attribute.name)
-            values = attribute.values
-            if attribute.domain == VERTICES:
-                values = [values[v] for v in drawn]
-            put(len(values))
-            for value in values:
-                data.extend(struct.pack(f"<{attribute.C}f", *value))
+            put(attribute.W)
+            values = [(0.0,) * attribute.C] * attribute.W if attribute.animated else attribute.values
+            data.extend(dumped(attribute, values, drawn))
             if attribute.domain == CORNERS:
                 put(*(attribute.wedge[c] for p in self.apexes() for c in (p, next_of(p), prev_of(p))))
         put(len(self.parts.names) if self.parts else 0)
@@ -68,3 +71,9 @@ class Properties:
         for polygon in polygons:
             put(*polygon)
         return bytes(data)
+
+def dumped(attribute, values, drawn):
+    """Values as they are given out."""
+    if attribute.domain == VERTICES:
+        values = [values[v] for v in drawn]
+    return b"".join(struct.pack(f"<{attribute.C}f", *value) for value in values)

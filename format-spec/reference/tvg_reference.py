@@ -28,7 +28,7 @@ from collections import deque
 from tvg_basis import Basis, BasisFrames  # 7.8
 from tvg_levels import levels_of, lods_of  # 5.5, 5.6
 from tvg_lossless import LosslessFrames, line_of  # 7.9
-from tvg_properties import Properties  # 5.7 to 5.9
+from tvg_properties import Properties, dumped  # 5.7 to 5.9
 from tvg_pyramid import pyramid  # 5.4
 
 class Invalid(Exception):
@@ -153,6 +153,7 @@ class Mesh:
         self.turns = turns  # of the pyramid (5.4); None without a reference shape
         self.shape = shape  # lattice indices, origin and step; None without one
         self.levels, self.lods, self.lod = levels, lods, 0
+        self.has = None  # what it has beside its connectivity (5.7 to 5.9), where that is drawn
         self.drawn, self.properties = range(V), b""  # of the whole mesh, as digests.txt has them
 
     def draw(self, vertices, faces):
@@ -347,7 +348,7 @@ class Decoder:
             mesh.draw(lod.vertices, lod.faces(sys.modules[__name__]))
         else:
             mesh.draw(range(V), faces)
-            mesh.properties = properties.dump(mesh.drawn) if properties else b""
+            mesh.properties, mesh.has = properties.dump(mesh.drawn) if properties else b"", properties
         return mesh
 
     def entries(self, kind):
@@ -376,6 +377,8 @@ class Decoder:
         fields = (header.frame_count, self.entries(MESH_ENTRY) + 1 - mesh.number, len(backs), *backs)
         self.index.append((GOP_ENTRY, offset, fields))
         frames = header.frames(mesh)
+        channels = mesh.has.channels(sys.modules[__name__]) if mesh.has else {}
+        require(channels.keys() <= set(header.channels), "4.5.1", "no channel for an animated attribute")
         hashed, digested, decoded = bytearray(), False, 0
         while number < header.packet_count:
             number += 1
@@ -385,7 +388,7 @@ class Decoder:
             if kind == 1:
                 require(not digested, "4.5", "a second digest")
                 require(decoded == header.frame_count, "4.5", "the digest comes before the last frame")
-                self.digest(header, content, bytes(hashed))
+                self.digest(header, content, {1: bytes(hashed)} | {c: bytes(channels[c].hashed) for c in channels})
                 digested = True
                 continue
             require(kind != 0, "4.5", "a second header")
@@ -394,10 +397,13 @@ class Decoder:
             require(header.predictors >> kind - 32 & 1, "4.5.2", "a predictor that the header does not name")
             require(decoded > 0 or kind - 32 in (SPACE, PYRAMID, ROWS, SHAPE), "4.5.2", "nothing is there to predict the first frame from")
             ends = RangeDecoder if kind - 32 == ROWS else TwoEnded
-            frames.frame(ends(header.positions(content), "7.5"), kind - 32)
+            pieces = header.pieces(content)
+            frames.frame(ends(pieces[1], "7.5"), kind - 32)
+            for number_of, channel in channels.items():
+                channel.take(pieces[number_of])
             decoded += 1
             hashed += b"".join(struct.pack("<3i", *values) for values in frames.hashed_values())
-            self.output(mesh, frames)
+            self.output(mesh, frames, channels)
         require(digested, "4.5", "no digest")
         reader.end()
 
@@ -407,10 +413,11 @@ class Decoder:
         for channel in header.channels:
             require(reader.varint() == channel, "4.5.3", "channels of the digest")
             expected = reader.unsigned(8)
-            require(channel != 1 or expected == xxh64(values), "7.6", "wrong digest", "digest-mismatch")
+            right = channel not in values or expected == xxh64(values[channel])
+            require(right, "7.6", "wrong digest", "digest-mismatch")
         reader.end()
 
-    def output(self, mesh, frames):
+    def output(self, mesh, frames, channels):
         """Give out one frame, in output order (4.3)."""
         if self.shown is None or (mesh.V, mesh.faces) != (self.shown.V, self.shown.faces):
             self.shown_vertices += mesh.V
@@ -418,6 +425,8 @@ class Decoder:
             self.face_bytes += b"".join(struct.pack("<3I", *face) for face in mesh.faces)
         if mesh.properties != (self.shown.properties if self.shown else b""):
             self.shown_properties += mesh.properties
+        for channel in channels.values():
+            self.shown_properties += dumped(channel.attribute, channel.values, mesh.drawn)
         for v in mesh.drawn:
             index, at = frames.given_out(v)
             self.index_bytes += struct.pack("<3i", *index)
@@ -587,12 +596,12 @@ class Header:
         frames.origin, frames.step = self.origin, self.step
         return frames
 
-    def positions(self, content):
-        """4.5.2 A frame's packet: the piece of channel 1, which is the first."""
+    def pieces(self, content):
+        """4.5.2 A frame's packet: the piece of each channel."""
         reader, pieces = Reader(content, "4.5.2"), []
         for _ in self.channels[1:]:
             pieces.append(reader.take(reader.varint()))
-        return (pieces + [reader.rest()])[0]
+        return dict(zip(self.channels, pieces + [reader.rest()]))
 
 # 5. The mesh
 class Edge:

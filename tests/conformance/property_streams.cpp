@@ -151,6 +151,63 @@ Stream encode_properties(std::string_view name, EncodeOptions options, bool exac
   return encode_source(source, options);
 }
 
+/// All but the numbers of vertices change: some values in every frame but the third, which repeats the
+/// second.
+class AnimatedSource final : public FrameSource {
+ public:
+  AnimatedSource(const Sequence& sequence, const MeshProperties& properties)
+      : frames_(sequence), properties_(properties), first_(properties.attributes) {
+    for (Attribute& attribute : properties_.attributes) attribute.animated = attribute.name != "height";
+  }
+
+  const Mesh& mesh() const override { return frames_.mesh(); }
+  const MeshProperties& properties() const override { return properties_; }
+  std::span<const float> animated_values(std::size_t attribute) const override {
+    return properties_.attributes[attribute].values;
+  }
+  std::optional<std::uint64_t> frame_count() const override { return frames_.frame_count(); }
+  Result<bool> read_frame(std::span<float> positions) override {
+    for (std::size_t a = 0; a < first_.size(); ++a) move(first_[a], properties_.attributes[a].values);
+    if (read_ != 1) ++moved_;
+    ++read_;
+    return frames_.read_frame(positions);
+  }
+  bool rewind() override {
+    read_ = moved_ = 0;
+    return frames_.rewind();
+  }
+
+ private:
+  /// Keeps the lengths of normals, and colours from 0 to 1.
+  void move(const Attribute& first, std::vector<float>& values) const {
+    if (first.name == "height") return;
+    values = first.values;
+    const std::size_t width = first.components;
+    for (std::size_t i = 0; i < first.value_count(); ++i) {
+      float* const value = values.data() + width * i;
+      if (first.kind == AttributeKind::kNormal) {
+        if (moved_ > 0 && i % 5 < moved_) std::swap(value[0], value[(i + moved_) % 3]);
+      } else if (first.kind == AttributeKind::kColour) {
+        value[0] = i % 3 < moved_ ? 1 - value[0] : value[0];
+      } else {
+        value[0] += static_cast<float>(moved_ * (i % 4)) / 8;
+      }
+    }
+  }
+
+  SequenceSource frames_;
+  MeshProperties properties_;
+  std::vector<Attribute> first_;
+  std::size_t read_ = 0, moved_ = 0;
+};
+
+Stream encode_animated(const EncodeOptions& options) {
+  Sequence sequence = corpus_sequence("cloth", 4);
+  const MeshProperties properties = all_properties(sequence, false);
+  AnimatedSource source(sequence, properties);
+  return encode_source(source, options);
+}
+
 }  // namespace
 
 Stream make_attributes() {
@@ -175,6 +232,24 @@ Stream make_attributes_soup() {
   EncodeOptions options = options_of(5, 5, Predictor::kPyramid, 50);
   options.keep_vertex_order = false;
   return encode_properties("soup", options);
+}
+
+Stream make_animated() {
+  return encode_animated(options_of(5, 5, Predictor::kElp, 3));
+}
+
+Stream make_animated_shape() {
+  return encode_animated(options_of(5, 5, Predictor::kPyramid, 50));
+}
+
+Stream make_animated_exact() {
+  EncodeOptions options;
+  options.mode = Mode::kLossless;
+  Sequence sequence = corpus_sequence("cloth", 2);
+  MeshProperties properties = all_properties(sequence, true);
+  properties.attributes = {texcoords(sequence, 0)};
+  AnimatedSource source(sequence, properties);
+  return encode_source(source, options);
 }
 
 Stream make_shape() {

@@ -9,6 +9,9 @@ Stream make_attributes();
 Stream make_attributes_shape();
 Stream make_attributes_exact();
 Stream make_attributes_soup();
+Stream make_animated();
+Stream make_animated_shape();
+Stream make_animated_exact();
 Stream make_shape();
 
 }  // namespace tvg::conformance

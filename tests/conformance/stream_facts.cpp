@@ -85,6 +85,8 @@ Result<StreamFacts> read_stream_facts(std::span<const std::uint8_t> stream, std:
           shown_properties = decoder.properties();
           add(properties, shown_properties);
         }
+        for (std::size_t i = 0; i < shown_properties.attributes.size(); ++i)
+          add(properties, decoder.animated_values(i));
         ++facts.frames;
         decoder.copy_lattice(indices);
         decoder.copy_positions(coordinates.data());
