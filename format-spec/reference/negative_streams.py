@@ -10,6 +10,7 @@ they are made from has 6 frames. The streams of the table of §3.4 are named aft
 import os
 import sys
 
+import negative_animated
 import negative_basis
 import negative_chunks
 import negative_gops
@@ -27,6 +28,7 @@ def cases():
     yield from negative_basis.cases()
     yield from negative_levels.cases()
     yield from negative_properties.cases()
+    yield from negative_animated.cases()
 
 def main(arguments):
     if len(arguments) != 1:

@@ -70,7 +70,7 @@ def row_chooser(random, plan):
 
 class Mesh:
     """A random mesh: payload, id, and what frames need to know of it."""
-    def __init__(self, random, with_levels=False, with_properties=False):
+    def __init__(self, random, with_levels=False, with_properties=False, may_move=False):
         extreme = random.below(8)
         if extreme == 0:
             V, F = 1, random.below(2)
@@ -100,9 +100,10 @@ class Mesh:
             section = self.shape_section(random, faces, V)
             sections.append((5, section))
             self.shape, self.turns = reference.shape_and_turns(section, faces, V, self.levels)
-        self.property_bytes = 0
+        self.property_bytes, self.channels = 0, dict
         if with_properties and random.chance(80):
-            more, self.property_bytes = properties_writer.random_properties(random, faces, V, self.shape)
+            more, self.property_bytes, self.channels = properties_writer.random_properties(
+                random, faces, V, self.shape, may_move)
             sections += more
         sections += [(kind, random.some_bytes(random.below(6))) for kind in (0, 8, 10, 2 ** 40) if random.chance(15)]
         self.V, self.F = V, F
@@ -180,7 +181,7 @@ class RandomStream:
     """One stream. Chunks are planned first, since HEAD bounds them."""
     def __init__(self, seed):
         self.random, self.lossless = Random(seed), seed >= 1000
-        self.meshes = [Mesh(self.random, seed >= 3000, seed >= 4000) for _ in range(self.random.between(1, 3))]
+        self.meshes = [Mesh(self.random, seed >= 3000, seed >= 4000, seed >= 5000) for _ in range(self.random.between(1, 3))]
         self.window = self.random.between(1, 3)
         self.label = self.random.pick((0, 0, 17, 2 ** 62))
         self.bases = [Basis(self.random, mesh) for mesh in self.meshes if mesh.turns and seed >= 2000
@@ -310,19 +311,23 @@ class RandomStream:
         is_lossless = self.lossless and mesh.turns and self.random.chance(30)
         return self.lossless_gop(mesh) if is_lossless else self.elp_gop(mesh)
 
-    def channels(self):
-        return [1] + [channel for channel in (2, 6, 10 ** 6) if self.random.chance(15)]
+    def channels(self, mesh):
+        return [1] + sorted({channel for channel in (2, 6, 10 ** 6) if self.random.chance(15)} | mesh.channels().keys())
 
-    def framed(self, frames, frame_count, choose_predictor, channels):
+    def framed(self, mesh, frames, frame_count, choose_predictor, channels):
         """The packets of frames, and of the digest."""
-        random, packets = self.random, []
+        random, packets, known = self.random, [], mesh.channels()
         for number in range(frame_count):
             self.ancillary(packets)
             predictor = choose_predictor(number)
-            pieces = [frames.write(predictor)] + [random.some_bytes(random.below(4)) for _ in channels[1:]]
+            pieces = [frames.write(predictor)] + [
+                known[channel].write(random) if channel in known else random.some_bytes(random.below(4))
+                for channel in channels[1:]]
             packets.append((32 + predictor, b"".join(map(writer.sized, pieces[:-1])) + pieces[-1]))
         self.ancillary(packets)
-        digests = [(channel, frames.digest() if channel == 1 else random.below(2 ** 64)) for channel in channels]
+        digests = [(channel, frames.digest() if channel == 1 else
+                    reference.xxh64(bytes(known[channel].hashed)) if channel in known else random.below(2 ** 64))
+                   for channel in channels]
         packets.append((1, writer.digest(digests)))
         self.ancillary(packets)
         return packets
@@ -335,16 +340,16 @@ class RandomStream:
         return writer.gop([(0, packet)] + packets), frame_count
 
     def lossless_gop(self, mesh):
-        random, channels, frame_count = self.random, self.channels(), self.random.between(1, 4)
+        random, channels, frame_count = self.random, self.channels(mesh), self.random.between(1, 4)
         kind = random.below(2)
         amount = random.pick(((0, 0, 13, 23), (0, 100, 149, 252))[kind])
         frames = writer.LosslessWriter(mesh.turns, mesh.shape, kind, amount, number_chooser(random))
-        packets = self.framed(frames, frame_count, lambda number: PYRAMID, channels)
+        packets = self.framed(mesh, frames, frame_count, lambda number: PYRAMID, channels)
         return self.finished(mesh, frame_count, packets, mode=2,
                              fields=writer.lossless_fields(kind, amount, channels))
 
     def basis_gop(self, basis):
-        random, channels = self.random, self.channels()
+        random, channels = self.random, self.channels(basis.mesh)
         alike = random.pick((0, 50, 100))
 
         def choose_back(before):
@@ -352,7 +357,7 @@ class RandomStream:
 
         frames = basis_writer.BasisWriter(basis, row_chooser(random, basis), choose_back)
         frame_count = 70 if random.chance(10) else random.between(1, 4)  # 70 are more than are remembered
-        packets = self.framed(frames, frame_count, lambda number: ROWS, channels)
+        packets = self.framed(basis.mesh, frames, frame_count, lambda number: ROWS, channels)
         return self.finished(basis.mesh, frame_count, packets, planes=basis.ids, mode=reference.MODE_BASIS,
                              fields=writer.channel_fields(channels))
 
@@ -361,13 +366,13 @@ class RandomStream:
         fine_bits = random.pick((1, 4, 8, 12, 24))
         coarse_bits = fine_bits if random.chance(40) else random.between(1, fine_bits)
         fine = [random.below(2) for _ in mesh.gates] if coarse_bits < fine_bits else [1] * mesh.V
-        channels = self.channels()
+        channels = self.channels(mesh)
         turns = mesh.turns if random.chance(80) else None
         first = (SPACE, PYRAMID, PYRAMID) if turns else (SPACE,)
         frames = writer.FrameWriter(mesh.gates, fine, fine_bits, coarse_bits, chooser(random), turns)
         frame_count = random.between(1, 4)
         others = (*first, TIME, ELP, ELP)
-        packets = self.framed(frames, frame_count, lambda number: random.pick(first if number == 0 else others), channels)
+        packets = self.framed(mesh, frames, frame_count, lambda number: random.pick(first if number == 0 else others), channels)
         origin = [random.pick((0.0, -1.0, 1e-3, 123.456, -1e30)) for _ in range(3)]
         flags = writer.flags(fine, mesh.gates) if coarse_bits < fine_bits else b""
         named = writer.predictors_of(packets) | (random.below(16) if turns else random.below(8))

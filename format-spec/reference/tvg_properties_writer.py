@@ -3,6 +3,7 @@ import struct
 import types
 
 import tvg_reference as reference
+from tvg_animated import ChangingFields, ChangingNormals, Channel
 from tvg_attribute_values import Fields, Normals
 from tvg_attributes import NORMAL, Attribute
 from tvg_corners import Surface
@@ -112,27 +113,59 @@ class NormalsWriter(Chosen, Normals):
 class RandomAttribute(Attribute):
     FIELDS, NORMALS = FieldsWriter, NormalsWriter
 
-def attribute_head(random, has_parts):
+class ChangingFieldsWriter(ChangingFields, FieldsWriter):
+    pass
+
+class ChangingNormalsWriter(ChangingNormals, NormalsWriter):
+    pass
+
+class ChannelWriter(Channel):
+    """Writes values at random, frame after frame."""
+    CHANGING_FIELDS, CHANGING_NORMALS = ChangingFieldsWriter, ChangingNormalsWriter
+
+    def write(self, random):
+        """The next frame's piece."""
+        first, attribute = self.integers is None, self.attribute
+        if not first and random.chance(20):
+            self.keep(self.integers)
+            return b""
+        head = b""
+        if first and attribute.bits > 0 and attribute.kind != NORMAL:
+            head = random_steps(random, attribute.C)
+            attribute.read_steps(reference.Reader(head, "5.7"), reference)
+        predictor, coder = 0 if first else int(random.chance(70)), RandomCoder(random)
+        self.code(coder, predictor)
+        coder.finish()
+        return bytes([predictor]) + head + coder.data
+
+def random_steps(random, C):
+    origin = [random.pick((0.0, -0.0, -1.0, 1e-3, -1e30)) for _ in range(C)]
+    return struct.pack(f"<{C}fd", *origin, random.pick((0.0, 1.0, 1 / 3, 1e-45, 3e38, 1e308)))
+
+def attribute_head(random, has_parts, may_move):
     kind, domain = random.below(4), random.below(3 if has_parts else 2)
     C = {1: 3, 2: random.between(3, 4)}.get(kind, random.pick((1, 2, 2, 3, 4)))
     bits = random.pick((0, 2, 5, 10, 16) if kind == NORMAL else (0, 1, 4, 12, 24))
-    head = bytes([kind, domain, C, bits]) + sized(random.pick((b"", b"uv", "gr\u00f6\u00dfe".encode())))
-    if bits == 0 or kind == NORMAL:
+    moves = 128 * (may_move and random.chance(60))
+    head = bytes([kind, domain + moves, C, bits]) + sized(random.pick((b"", b"uv", "gr\u00f6\u00dfe".encode())))
+    if bits == 0 or kind == NORMAL or moves:
         return head
-    origin = [random.pick((0.0, -0.0, -1.0, 1e-3, -1e30)) for _ in range(C)]
-    return head + struct.pack(f"<{C}fd", *origin, random.pick((0.0, 1.0, 1 / 3, 1e-45, 3e38, 1e308)))
+    return head + random_steps(random, C)
 
-def random_attributes(random, surface, P):
-    """A section, and what it counts for."""
-    heads = [attribute_head(random, P > 0) for _ in range(random.between(1, 4))]
-    coder, earlier, cost = RandomCoder(random), [], 0
-    for head in heads:
+def random_attributes(random, surface, P, may_move):
+    """A section, what it counts for, and its animated attributes by their channels."""
+    heads = [attribute_head(random, P > 0, may_move) for _ in range(random.between(1, 4))]
+    coder, earlier, cost, animated = RandomCoder(random), [], 0, {}
+    for number, head in enumerate(heads):
         attribute = RandomAttribute(reference.Reader(head, "5.7"), reference)
         attribute.read_wedges(coder, surface, P, earlier, reference)
-        attribute.read_values(coder, surface, reference)
+        if attribute.animated:
+            animated[2 + 2 * number] = attribute
+        else:
+            attribute.read_values(coder, surface, reference)
         cost += attribute.cost(surface, P)
     coder.finish()
-    return varint(len(heads)) + b"".join(heads) + coder.data, cost
+    return varint(len(heads)) + b"".join(heads) + coder.data, cost, animated
 
 def coding_of(coder):
     """The reference, but with this coder."""
@@ -178,18 +211,21 @@ def random_polygons(random, surface):
     fans = FansWriter(b"?", surface, 2 ** 32, coding_of(coder)).fans
     return coder.data, 16 * sum(len(fan) > 1 for fan in fans)
 
-def random_properties(random, faces, V, shape):
-    """Sections of a mesh, and what they count for."""
-    surface, sections, P, cost = Surface(faces, V, shape, reference), [], 0, 0
+def random_properties(random, faces, V, shape, may_move=False):
+    """Sections of a mesh, what they count for, and what begins the channels of a GOP's animated attributes."""
+    surface, sections, P, cost, animated = Surface(faces, V, shape, reference), [], 0, 0, {}
     if random.chance(60):
         content, P, cost = random_parts(random, surface)
         sections.append((2, content))
     if random.chance(80):
-        content, more = random_attributes(random, surface, P)
+        content, more, animated = random_attributes(random, surface, P, may_move)
         sections.append((4, content))
         cost += more
     if random.chance(60):
         content, more = random_polygons(random, surface)
         sections.append((6, content))
         cost += more
-    return sections, cost
+    def channels():
+        return {channel: ChannelWriter(attribute, surface, reference) for channel, attribute in animated.items()}
+
+    return sections, cost, channels
