@@ -145,24 +145,33 @@ void StretchProperties::drop(std::size_t attribute) {
   tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(attribute));
 }
 
-void StretchProperties::settle(std::span<const Face> /*faces*/, bool still, std::vector<std::string>& notes) {
+void StretchProperties::settle(std::span<const Face> faces, bool still, std::vector<std::string>& notes) {
   for (std::size_t i = tracks_.size(); i-- > 0;) {
     const std::string why = why_dropped(i, still);
     if (why.empty()) continue;
     notes.push_back(why + " (--normals keep keeps them)");
     drop(i);
   }
-  // The encoder has no place for values of frames.
   std::vector<std::string> changing;
-  for (std::size_t i = tracks_.size(); i-- > 0;) {
+  const CornerMatch in_place(faces, faces);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (!tracks_[i].changes) continue;
-    changing.insert(changing.begin(), name_of(properties_.attributes[i]));
-    drop(i);
+    Attribute& attribute = properties_.attributes[i];
+    const Attribute first = std::move(attribute);
+    attribute = {first.name, first.kind, AttributeDomain::kVertex, first.components, first.bits, true,
+                 {},         {}};
+    const std::size_t vertices = first.corners.empty() ? first.value_count() : 0;
+    attribute.values.resize(vertices * first.components);
+    if (!tracks_[i].classes.empty()) {
+      attribute.domain = AttributeDomain::kCorner;
+      attribute.corners = std::move(tracks_[i].classes);
+      attribute.values.resize(std::size_t{tracks_[i].class_count} * first.components);
+    }
+    take(i, first, faces, in_place);
+    changing.push_back(name_of(attribute));
   }
-  if (!changing.empty()) {
-    notes.push_back(
-        fmt::format("its {} change from frame to frame, and are left out", fmt::join(changing, ", ")));
-  }
+  if (!changing.empty())
+    notes.push_back(fmt::format("its {} change from frame to frame", fmt::join(changing, ", ")));
 }
 
 /// Takes the values of a frame for those of an animated attribute. False where corners that share one have

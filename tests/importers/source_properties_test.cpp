@@ -58,12 +58,23 @@ TEST_F(SourceProperties, WhatIsTheSameInAllFilesIsStaticWhateverItsIndices) {
   EXPECT_THAT(frames.frames, SizeIs(2));
 }
 
-TEST_F(SourceProperties, WhatChangesIsLeftOutWithANote) {
+TEST_F(SourceProperties, WhatChangesIsAnimatedWithTheSeamsOfAllFiles) {
   write("f_1.obj", "vt 0 0\nvt 1 1\nf 1/1 2/2 3/2\nf 1/1 3/2 4/1\n");
   write("f_2.obj", "vt 0 0\nvt 0.25 1\nvt 0.5 0\nf 1/1 2/2 3/2\nf 1/3 3/2 4/3\n");
   const OpenedSource opened = open({"f_%d.obj"});
-  EXPECT_THAT(opened.source->properties().attributes, IsEmpty());
+  const MeshProperties& properties = opened.source->properties();
+  ASSERT_THAT(properties.attributes, SizeIs(1));
+  const Attribute& uv = properties.attributes[0];
+  EXPECT_TRUE(uv.animated);
+  EXPECT_EQ(uv.domain, AttributeDomain::kCorner);
+  EXPECT_THAT(uv.corners, ElementsAre(0, 1, 2, 3, 2, 4));
+  EXPECT_EQ(uv.value_count(), 5U);
   EXPECT_THAT(opened.notes, Contains(HasSubstr("texture coordinates change from frame to frame")));
+  for (int pass = 0; pass < 2; ++pass) {
+    EXPECT_THAT(values_of_next(*opened.source, 0), ElementsAre(0, 0, 1, 1, 1, 1, 0, 0, 0, 0));
+    EXPECT_THAT(values_of_next(*opened.source, 0), ElementsAre(0, 0, 0.25F, 1, 0.25F, 1, 0.5F, 0, 0.5F, 0));
+    EXPECT_TRUE(opened.source->rewind());
+  }
 }
 
 TEST_F(SourceProperties, ChangesThatNoFileForetoldAreSaidToBeAnotherMesh) {
