@@ -36,6 +36,7 @@ struct DecodedFacts {
   std::array<double, 3> residuals{};                       ///< bytes of x, y and z
   double rows = 0;                                         ///< bytes of the rows of frames in mode basis
   std::array<std::uint64_t, kPredictorCount> predicted{};  ///< frames by their predictor
+  std::vector<std::uint64_t> animated = {};                ///< [attribute], bytes of the values of frames
   std::map<std::uint64_t, std::uint32_t> flagged;  ///< important vertices of the GOP with this first frame
 };
 
@@ -62,6 +63,10 @@ struct StreamSummary {
     if (!decoded) return std::nullopt;
     const auto entry = decoded->flagged.find(gop.first_frame);
     return entry == decoded->flagged.end() ? std::nullopt : std::optional(entry->second);
+  }
+  /// [attribute of the last mesh], what its values take of all frames, where they were decoded.
+  std::span<const std::uint64_t> animated_bytes() const {
+    return decoded ? std::span<const std::uint64_t>(decoded->animated) : std::span<const std::uint64_t>();
   }
   /// Vertices summed over frames.
   std::uint64_t vertex_frames() const {
@@ -113,6 +118,10 @@ std::vector<std::pair<const char*, double>> purposes(const StreamSummary& summar
   }
   result.emplace_back("rows", summary.decoded->rows);
   left -= summary.decoded->rows;
+  double animated = 0;
+  for (const std::uint64_t bytes : summary.decoded->animated) animated += static_cast<double>(bytes);
+  result.emplace_back("animated_attributes", animated);
+  left -= animated;
   result.emplace_back("container", left);
   return result;
 }
@@ -123,6 +132,9 @@ void take_frame(const Decoder& decoder, DecodedFacts& facts) {
   ++facts.predicted.at(static_cast<std::size_t>(predictor));
   for (std::size_t axis = 0; axis < 3; ++axis)
     (predictor == Predictor::kRows ? facts.rows : facts.residuals[axis]) += decoder.frame_bits()[axis] / 8;
+  facts.animated.resize(std::max(facts.animated.size(), decoder.properties().attributes.size()));
+  for (std::size_t i = 0; i < decoder.properties().attributes.size(); ++i)
+    facts.animated[i] += decoder.animated_bytes(i);
 }
 
 DecodedFacts decode_facts(const std::string& path, std::uint64_t& damages) {
@@ -221,7 +233,7 @@ void print_json(const StreamSummary& summary) {
     json["lods"].push_back(
         {{"levels", lod.levels}, {"vertices", lod.vertices}, {"faces", lod.faces}, {"bytes", lod.bytes}});
   }
-  add_to_json(summary.last_mesh(), json);
+  add_to_json(summary.last_mesh(), summary.animated_bytes(), json);
   json["damages"] = summary.damages;
   for (const auto& [purpose, bytes] : purposes(summary)) json["bytes_by_purpose"][purpose] = bytes;
   json["bits_per_coordinate"] = bits_per_coordinate(stream.bytes, summary.vertex_frames(), 1);
@@ -339,7 +351,7 @@ void print_text(const StreamSummary& summary) {
   }
   if (summary.damages > 0) fmt::print("  DAMAGED in {} places: tvg verify tells more\n", summary.damages);
   print_purposes(summary);
-  print_properties(mesh);
+  print_properties(mesh, summary.animated_bytes());
   print_data(stream);
   print_lods(mesh.parts);
   print_planes(summary);

@@ -74,7 +74,8 @@ Status BasisDecoder::take(Bytes packet, Predictor predictor) {
 }
 
 Status BasisDecoder::take_measured(Bytes packet, Predictor predictor, std::array<double, 3>& bits) {
-  bits.fill(8.0 * static_cast<double>(packet.size()) / 3);
+  const Result<Bytes> piece = positions_piece(channels_, packet);
+  bits.fill(piece ? 8.0 * static_cast<double>(piece->size()) / 3 : 0);
   return take(packet, predictor);
 }
 

@@ -91,9 +91,9 @@ Verdict decode(std::span<const std::uint8_t> stream, std::size_t piece) {
 /// with the coded sections of a mesh with the section; and behind an index outside its lattice, or a
 /// coefficient out of range, a packet or a group no longer ends where it should.
 bool may_be_told_otherwise(const std::string& expected, const std::string& section) {
-  static const std::set<std::string> kCoded = {"§5.3", "§5.7", "§5.8", "§5.9"};
+  static const std::set<std::string> kCoded = {"§5.3", "§5.7", "§5.7.7", "§5.8", "§5.9"};
   return expected == "§2.2" || section == "§5.1" || section == "§5.2" ||
-         (expected == "§6.1" && kCoded.contains(section)) ||
+         (expected == "§6.1" && kCoded.contains(section)) || (expected == "§5.7" && section == "§5.7.7") ||
          ((expected == "§7.5" || expected == "§7.8.2") && section == "§6.1");
 }
 
