@@ -123,8 +123,9 @@ class Encoder::State {
       if (with_joints_) kept.assign(joints.begin(), joints.end());
       gop_box_ = around(gop_box_, frame_box);
       report_.vertex_frames += stretch_->mesh.vertex_count;
-      std::optional<GopContent> gop = cutter_->add(FramePositions(positions.begin(), positions.end()),
-                                                   std::move(kept), animated_of(values));
+      std::optional<GopContent> gop =
+          cutter_->add(FramePositions(positions.begin(), positions.end()), std::move(kept),
+                       animated_of(stretch_->properties, values));
       if (gop) {
         if (Status status = enqueue(std::move(*gop)); !status.ok()) return status;
       }
@@ -175,17 +176,9 @@ class Encoder::State {
     }
     if (Status status = check_properties(properties, mesh, options_->attribute_bits); !status.ok())
       return status;
-    if (stretch_ && property_bytes_of(properties, mesh) > limits_.property_bytes) {
-      return Error{ErrorCode::kLimitExceeded, "what the mesh has beside its connectivity takes " +
-                                                  std::to_string(property_bytes_of(properties, mesh)) +
-                                                  " bytes, the head declares " +
-                                                  std::to_string(limits_.property_bytes)};
-    }
-    if (stretch_ && animated_frame_bytes_of(properties, mesh) > frame_bytes_) {
-      return Error{ErrorCode::kLimitExceeded, "the values of animated attributes may take " +
-                                                  std::to_string(animated_frame_bytes_of(properties, mesh)) +
-                                                  " bytes of a frame, the head allows for " +
-                                                  std::to_string(frame_bytes_)};
+    if (stretch_) {
+      Status status = check_property_bounds(properties, mesh, limits_.property_bytes, frame_bytes_);
+      if (!status.ok()) return status;
     }
     return check_importance(options_->importance, mesh, skeleton);
   }
@@ -208,16 +201,6 @@ class Encoder::State {
       if (!lattice) return at_frame(number, lattice.error());
     }
     return with_joints_ ? check_joints(joints, stretch_->skeleton, number) : Status();
-  }
-
-  /// Of all values those of animated attributes.
-  FrameValues animated_of(std::span<const std::span<const float>> values) const {
-    FrameValues animated;
-    const std::vector<Attribute>& attributes = stretch_->properties.attributes;
-    for (std::size_t i = 0; i < attributes.size(); ++i) {
-      if (attributes[i].animated) animated.emplace_back(values[i].begin(), values[i].end());
-    }
-    return animated;
   }
 
   /// Does what cannot be taken back: an error stays.

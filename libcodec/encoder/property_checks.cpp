@@ -146,6 +146,32 @@ Status check_animated(const MeshProperties& properties, const Mesh& mesh,
   return {};
 }
 
+Status check_property_bounds(const MeshProperties& properties, const Mesh& mesh, std::uint64_t property_bytes,
+                             std::uint64_t frame_bytes) {
+  const std::uint64_t all = property_bytes_of(properties, mesh);
+  const std::uint64_t of_frame = animated_frame_bytes_of(properties, mesh);
+  if (all > property_bytes) {
+    return Error{ErrorCode::kLimitExceeded, "what the mesh has beside its connectivity takes " +
+                                                std::to_string(all) + " bytes, the head declares " +
+                                                std::to_string(property_bytes)};
+  }
+  if (of_frame > frame_bytes) {
+    return Error{ErrorCode::kLimitExceeded,
+                 "the values of animated attributes may take " + std::to_string(of_frame) +
+                     " bytes of a frame, the head allows for " + std::to_string(frame_bytes)};
+  }
+  return {};
+}
+
+std::vector<std::vector<float>> animated_of(const MeshProperties& properties,
+                                            std::span<const std::span<const float>> values) {
+  std::vector<std::vector<float>> animated;
+  for (std::size_t i = 0; i < properties.attributes.size(); ++i) {
+    if (properties.attributes[i].animated) animated.emplace_back(values[i].begin(), values[i].end());
+  }
+  return animated;
+}
+
 MeshProperties with_settled_bits(MeshProperties properties, const AttributeBits& bits) {
   for (Attribute& attribute : properties.attributes) {
     attribute.bits = settled_bits(attribute, bits);

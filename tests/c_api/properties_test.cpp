@@ -132,6 +132,51 @@ TEST(CProperties, GoInAndComeOut) {
   EXPECT_STREQ(second->material, "");
 }
 
+TEST(CProperties, ValuesThatChangeComeWithTheirFrames) {
+  Encoding encoding;
+  StreamEncoder& encoder = encoding.encoder;
+  tvg_attribute moving = heat(), seams = uv();
+  moving.animated = seams.animated = 1;
+  moving.values = seams.values = nullptr;
+  seams.bits = TVG_EXACT_BITS;
+  EXPECT_EQ(encoder.set_values(0, kHeat, 4, 1), TVG_ERROR_WRONG_STATE);
+  ASSERT_EQ(encoder.add_attribute(moving), TVG_OK) << encoder.error_text();
+  ASSERT_EQ(encoder.add_attribute(seams), TVG_OK) << encoder.error_text();
+  ASSERT_EQ(encoder.add_attribute(heat()), TVG_OK);
+  ASSERT_EQ(encoding.set_mesh(), TVG_OK) << encoder.error_text();
+  EXPECT_EQ(encoder.add_frame(kPositions[0], 12), TVG_ERROR_INVALID_INPUT) << "there are no values yet";
+  EXPECT_EQ(encoder.set_values(2, kHeat, 4, 1), TVG_ERROR_INVALID_ARGUMENT) << "it is not animated";
+  EXPECT_EQ(encoder.set_values(3, kHeat, 4, 1), TVG_ERROR_INVALID_ARGUMENT) << "there is none";
+  ASSERT_EQ(encoder.set_values(0, kHeat, 4, 1), TVG_OK);
+  ASSERT_EQ(encoder.set_values(1, kUv[0], 12, 2), TVG_OK);
+  ASSERT_EQ(encoder.add_frame(kPositions[0], 12), TVG_OK) << encoder.error_text();
+  constexpr float kCold[4] = {1, 2, 3, 4};
+  ASSERT_EQ(encoder.set_values(0, kCold, 4, 1), TVG_OK);
+  const Stream stream = encoding.finish();
+
+  StreamDecoder decoder = decoder_of(stream);
+  ASSERT_TRUE(poll_to(decoder, TVG_EVENT_MESH));
+  ASSERT_TRUE(decoder.attribute(0) && decoder.attribute(1));
+  EXPECT_EQ(decoder.attribute(0)->animated, 1u);
+  EXPECT_EQ(decoder.attribute(0)->value_count, 4u);
+  EXPECT_EQ(decoder.attribute(1)->value_count, 6u);
+  std::array<float, 12> values{};
+  EXPECT_EQ(decoder.copy_attribute(0, values.data(), 4), TVG_ERROR_WRONG_STATE) << "there is no frame";
+  for (const float* const expected : {kHeat, kCold}) {
+    ASSERT_TRUE(poll_to(decoder, TVG_EVENT_FRAME));
+    ASSERT_EQ(decoder.copy_attribute(0, values.data(), 4), TVG_OK);
+    EXPECT_EQ(std::memcmp(values.data(), expected, 16), 0);
+    ASSERT_TRUE(decoder.view());
+    ASSERT_EQ(decoder.copy_view_attribute(0, values.data(), decoder.view()->vertex_count), TVG_OK);
+    EXPECT_EQ(std::memcmp(values.data(), expected, 16), 0);
+    ASSERT_EQ(decoder.copy_attribute(1, values.data(), 12), TVG_OK);
+    std::array<std::uint32_t, 6> corners{};
+    ASSERT_EQ(decoder.copy_corners(1, corners.data(), 6), TVG_OK);
+    const std::array<float, 12> given = values;
+    EXPECT_THAT(given, ::testing::UnorderedElementsAreArray(kUv[0], 12));
+  }
+}
+
 TEST(CProperties, CornersAndPartsFollowTheFaces) {
   StreamDecoder decoder = decoder_of(rich_stream());
   ASSERT_TRUE(poll_to(decoder, TVG_EVENT_MESH));

@@ -2,6 +2,7 @@
 #include "tool_test_fixture.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace tvg::cli::testing {
 namespace {
@@ -51,6 +52,38 @@ class PropertiesTest : public ToolTest {
 
   MeshProperties properties_;
 };
+
+TEST_F(PropertiesTest, WhatChangesFromFileToFileComesBackWithItsFrame) {
+  const auto file = [](int frame) {
+    std::string text;
+    for (int v = 0; v < 4; ++v)
+      text += fmt::format("v {} {} {} {} 0.5 1\n", v % 2, v / 2, 0.125 * frame * v, 0.25 * ((v + frame) % 4));
+    for (int v = 0; v < 5; ++v) text += fmt::format("vt {} {}\n", 0.25 * v, 0.125 * frame);
+    for (int v = 0; v < 4; ++v) text += v % 2 == frame % 2 ? "vn 0.6 0 0.8\n" : "vn 0 0.8 0.6\n";
+    return text + "f 1/1/1 2/2/2 4/4/4\nf 1/5/1 4/4/4 3/3/3\n";
+  };
+  for (int frame = 0; frame < 3; ++frame) folder_.write(fmt::format("m_{}.obj", frame), file(frame));
+  const Outcome made =
+      good("tvg encode m_%d.obj -o m.tvg --uv-bits exact --normal-bits exact --colour-bits exact");
+  EXPECT_THAT(made.err, HasSubstr("change from frame to frame"));
+  for (const char* const command :
+       {"tvg compare m_%d.obj m.tvg --json", "tvg compare n_%d.obj m.tvg --json"}) {
+    const nlohmann::json compared = json(command)["attributes"];
+    ASSERT_EQ(compared.size(), 3u);
+    for (const nlohmann::json& attribute : compared) {
+      EXPECT_EQ(attribute["animated"], true) << attribute;
+      EXPECT_EQ(attribute["max_difference"], 0) << attribute;
+    }
+    good("tvg decode m.tvg -o n_%d.obj --threads 2");
+  }
+  const nlohmann::json info = json("tvg info --bits m.tvg --json");
+  for (const nlohmann::json& attribute : info["attributes"]) {
+    EXPECT_EQ(attribute["animated"], true);
+    EXPECT_GT(attribute["frame_bytes"], 0);
+  }
+  EXPECT_GT(info["bytes_by_purpose"]["animated_attributes"], 0);
+  EXPECT_THAT(good("tvg decode m.tvg -o m.glb").err, HasSubstr("they stay as they are first"));
+}
 
 TEST_F(PropertiesTest, InfoListsAttributesAndParts) {
   write_stream("rich.tvg");

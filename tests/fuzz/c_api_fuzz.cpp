@@ -106,7 +106,8 @@ class Session {
       require(decoder_.copy_flags(flags.data(), flags.size()) == TVG_OK);
       frames_.insert_or_assign(frame->number, std::move(positions));
     }
-    if (event == TVG_EVENT_MESH) use_properties();
+    if (event == TVG_EVENT_MESH) use_properties(false);
+    if (event == TVG_EVENT_FRAME) use_properties(true);
     if (event == TVG_EVENT_FRAME) use_view();
     if (event == TVG_EVENT_DATA) use_data();
     if (event == TVG_EVENT_ERROR) require(decoder_.error_code() != TVG_OK && !decoder_.error_text().empty());
@@ -115,7 +116,7 @@ class Session {
   }
 
   /// Whatever the mesh has can be had, and refers to nothing that is not there.
-  void use_properties() {
+  void use_properties(bool in_frame) {
     const auto mesh = decoder_.mesh();
     const auto properties = decoder_.properties();
     require(mesh && properties);
@@ -125,7 +126,7 @@ class Session {
       require(attribute && attribute->components >= 1 && attribute->components <= 4);
       require(decoder_.copy_corners(i, corners.data(), corners.size()) == TVG_OK);
       for (const std::uint32_t corner : corners) require(corner < attribute->value_count);
-      if (attribute->animated != 0) continue;
+      if (attribute->animated != 0 && !in_frame) continue;
       std::vector<float> values(std::size_t{attribute->value_count} * attribute->components);
       require(decoder_.copy_attribute(i, values.data(), values.size()) == TVG_OK);
     }
