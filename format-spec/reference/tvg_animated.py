@@ -76,7 +76,7 @@ class Channel:
             coding.require(not first, "5.7.7", "the first values repeat others")
             self.keep(self.integers)
             return
-        reader = coding.Reader(piece, "5.7.7")
+        reader = coding.Reader(piece, "5.7")
         predictor = reader.unsigned(1)
         coding.require(predictor <= (0 if first else 1), "5.7.7", "predictor of values")
         if first:
