@@ -91,7 +91,7 @@ class AnimatedCoder {
   Learnt learnt() const { return {fields_, normals_}; }
   void take_back(Learnt learnt) {
     fields_ = std::move(learnt.fields);
-    normals_ = std::move(learnt.normals);
+    normals_ = learnt.normals;
   }
 
  private:
