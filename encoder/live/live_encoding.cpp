@@ -31,7 +31,7 @@ Result<LiveReport> encode_live(FrameSource& source, EncodeOptions options, const
   for (Result<SourceStep> step = SourceStep::kMesh; *step != SourceStep::kEnd;) {
     const bool is_mesh = *step == SourceStep::kMesh;
     Status status = is_mesh ? encoder.set_mesh(source.mesh(), source.skeleton(), source.properties())
-                            : encoder.add_frame(frame, source.joint_positions());
+                            : encoder.add_frame(frame, source.joint_positions(), all_animated_values(source));
     if (!status.ok()) return status.error();
     if (!is_mesh && shown.vertex_count == 0) shown = source.mesh();
     if (is_mesh) shown = {};

@@ -81,14 +81,10 @@ Result<EncodeReport> push_all(FrameSource& source, EncodeOptions options, const 
   }
   Encoder encoder(std::move(options), sink, std::move(with_total));
   FramePositions frame;
-  std::vector<std::span<const float>> values;
   for (SourceStep step = SourceStep::kMesh; step != SourceStep::kEnd;) {
-    values.clear();
-    for (std::size_t i = 0; i < source.properties().attributes.size(); ++i)
-      values.push_back(source.animated_values(i));
     Status status = step == SourceStep::kMesh
                         ? encoder.set_mesh(source.mesh(), source.skeleton(), source.properties())
-                        : encoder.add_frame(frame, source.joint_positions(), values);
+                        : encoder.add_frame(frame, source.joint_positions(), all_animated_values(source));
     if (!status.ok()) return status.error();
     const Result<SourceStep> next = read_step(source, frame);
     if (!next) return next.error();

@@ -26,6 +26,13 @@ Status FrameSource::skip_frames(std::uint64_t count) {
   return {};
 }
 
+std::vector<std::span<const float>> all_animated_values(const FrameSource& source) {
+  std::vector<std::span<const float>> values;
+  for (std::size_t i = 0; i < source.properties().attributes.size(); ++i)
+    values.push_back(source.animated_values(i));
+  return values;
+}
+
 Result<SourceStep> read_step(FrameSource& source, FramePositions& frame) {
   frame.resize(3 * std::size_t{source.mesh().vertex_count});
   const Result<bool> read = source.read_frame(frame);

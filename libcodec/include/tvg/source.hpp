@@ -67,6 +67,10 @@ enum class SourceStep : std::uint8_t { kFrame, kMesh, kEnd };
 /// where that begins here, and the frame is read next. Fails as the source does.
 Result<SourceStep> read_step(FrameSource& source, FramePositions& frame);
 
+/// The values of each attribute of the frame that was read last, empty where it is not animated:
+/// Encoder::add_frame() takes them so. Valid until the next is read.
+std::vector<std::span<const float>> all_animated_values(const FrameSource& source);
+
 /// A source that is another one, but for what a class derived from it overrides.
 class SourceDecorator : public FrameSource {
  public:
