@@ -174,10 +174,10 @@ TEST(AnimatedAttributes, QuantizedOnesAreOffByHalfAStepOfTheirGop) {
           each_frame(encode_animated(given, options), [&](auto frame, const Decoder& decoder) {
             const MeshProperties present = present_of(decoder), wanted = in_frame(given, frame);
             for (std::size_t i = 0; i < wanted.attributes[5].values.size(); ++i) {
-          EXPECT_NEAR(present.attributes[5].values[i], wanted.attributes[5].values[i],
-                      1000.0 / ((1 << bits) - 1) / 2 + 1e-3);
-        }
-        for (std::size_t v = 0; bits == 12 && v < mesh.vertex_count; ++v) {
+              EXPECT_NEAR(present.attributes[5].values[i], wanted.attributes[5].values[i],
+                          1000.0 / ((1 << bits) - 1) / 2 + 1e-3);
+            }
+            for (std::size_t v = 0; bits == 12 && v < mesh.vertex_count; ++v) {
               double apart = 0;
               for (std::size_t i = 0; i < 3; ++i)
                 apart += std::abs(present.attributes[2].values[3 * v + i] -
