@@ -20,15 +20,23 @@ std::vector<std::string_view> damaged_streams() {
     return {"metadata",         "step",           "hybrid_time", "gops",       "two_meshes",
             "meshes_again",     "pyramid_hybrid", "lossless",    "basis",      "basis_hybrid",
             "unknown_chunk",    "levels",         "lods@1",      "lods_basis", "lods_basis@1",
-            "attributes_shape", "shape"};
+            "attributes_shape", "shape",          "animated"};
   std::vector<std::string_view> names;
   for (const auto& stream : conformance::conformance_streams()) names.push_back(stream.name);
   return names;
 }
 
-/// What a byte is changed by, with exclusive or.
-std::vector<std::uint8_t> changes() {
-  if (!exhaustive()) return {0x01, 0x10, 0x80, 0xFF};
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kSlow = true;
+#else
+constexpr bool kSlow = false;
+#endif
+
+/// What the byte at this place is changed by, with exclusive or: all of four, or one of them under
+/// sanitizers.
+std::vector<std::uint8_t> changes_at(std::size_t place) {
+  const std::vector<std::uint8_t> some = {0x01, 0x10, 0x80, 0xFF};
+  if (!exhaustive()) return kSlow ? std::vector{some[place % some.size()]} : some;
   std::vector<std::uint8_t> all;
   for (int change = 1; change < 256; ++change) all.push_back(static_cast<std::uint8_t>(change));
   return all;
@@ -62,7 +70,7 @@ TEST(ByteDamage, NoChangeOfAByteIsSilent) {
     const Original original = make_original(name);
     std::vector<std::uint8_t> damaged = original.stream;
     for (std::size_t i = 0; i < damaged.size(); ++i) {
-      for (const std::uint8_t change : changes()) {
+      for (const std::uint8_t change : changes_at(i)) {
         damaged[i] ^= change;
         const Verdict verdict = judge(original, damaged);
         damaged[i] ^= change;
@@ -84,7 +92,7 @@ TEST(ByteDamage, AWrongFrameBehindFittingChecksumsIsReportedByTheDigest) {
     for (const ChunkExtent& chunk : find_chunks(original.stream)) {
       for (std::size_t k = 1; k + 1 < chunk.packets.size(); ++k) {
         for (std::size_t i = chunk.packets[k].begin + 1; i + 4 < chunk.packets[k].end(); ++i) {
-          for (const std::uint8_t change : changes()) {
+          for (const std::uint8_t change : changes_at(i)) {
             std::vector<std::uint8_t> damaged = original.stream;
             damaged[i] ^= change;
             repair_checksums(damaged);
@@ -110,7 +118,7 @@ TEST(ByteDamage, BehindFittingChecksumsNothingTakesMoreMemoryThanDeclared) {
     const Original original = make_original(name);
     const std::size_t head_end = find_chunks(original.stream).front().whole.end();
     for (std::size_t i = head_end; i < original.stream.size(); ++i) {
-      for (const std::uint8_t change : changes()) {
+      for (const std::uint8_t change : changes_at(i)) {
         std::vector<std::uint8_t> damaged = original.stream;
         damaged[i] ^= change;
         repair_checksums(damaged);
