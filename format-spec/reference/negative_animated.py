@@ -38,7 +38,7 @@ def piece(channel, predictor, *values, grid=b"", usual=7):
     coder = properties_writer.Usual(values, usual)
     try:
         if grid:
-            channel.attribute.read_steps(reference.Reader(grid, "5.7"), reference)
+            channel.begin(reference.Reader(grid, "5.7"))
         channel.code(coder, predictor)
     except reference.Invalid:
         coder.clear()

@@ -80,10 +80,16 @@ class Channel:
         predictor = reader.unsigned(1)
         coding.require(predictor <= (0 if first else 1), "5.7.7", "predictor of values")
         if first:
-            attribute.read_steps(reader, coding)
+            self.begin(reader)
         coder = coding.RangeDecoder(reader.rest(), "5.7.7")
         self.code(coder, predictor)
         coder.finish()
+
+    def begin(self, reader):
+        """The grid, which the digest begins with (7.6)."""
+        start = reader.at
+        self.attribute.read_steps(reader, self.coding)
+        self.hashed += reader.data[start:reader.at]
 
     def code(self, coder, predictor):
         attribute = self.attribute

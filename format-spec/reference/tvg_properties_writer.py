@@ -132,7 +132,7 @@ class ChannelWriter(Channel):
         head = b""
         if first and attribute.bits > 0 and attribute.kind != NORMAL:
             head = random_steps(random, attribute.C)
-            attribute.read_steps(reference.Reader(head, "5.7"), reference)
+            self.begin(reference.Reader(head, "5.7"))
         predictor, coder = 0 if first else int(random.chance(70)), RandomCoder(random)
         self.code(coder, predictor)
         coder.finish()

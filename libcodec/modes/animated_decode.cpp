@@ -69,6 +69,7 @@ Status AnimatedDecoder::take_piece(const AnimatedAttribute& attribute, Bytes pie
       return malformed(kSection, "the first values of an animated attribute are predicted from others");
     AttributeGrid grid = attribute.grid;
     if (const Fault fault = read_steps(reader, grid)) return error_of(fault);
+    channel.digest.update(piece.subspan(1, piece.size() - 1 - reader.left()));
     if (Status status = begin_coder(attribute, grid, channel); !status.ok()) return status;
   }
   if (!can_allocate_bytes(AnimatedCoder::working_bytes(attribute.count) + kSmallThings))

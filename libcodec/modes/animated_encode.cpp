@@ -65,6 +65,9 @@ std::vector<EncodedChannel> encode_channels(const GopInput& input, const GopMesh
     AnimatedCoder coder(seen, partner, attribute, grid_over(attribute.grid, frames));
     EncodedChannel channel{channel_of_attribute(attribute.number), {}, 0};
     Hasher digest;
+    ByteWriter steps;
+    write_steps(steps, coder.grid());
+    digest.update(std::span<const std::uint8_t>(steps.take()));
     for (const AttributeValues values : frames) {
       coder.next();
       put_in_order(integers_of(values, coder.grid()), attribute, mesh, coder);
