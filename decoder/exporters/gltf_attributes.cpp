@@ -37,6 +37,7 @@ class AttributeWriter {
       if (i == result_.normal) {
         result_.normals = gltf_normals(view_, i, values);
         write_floats("NORMAL", 3, result_.normals);
+        keep_name("NORMAL", attribute);
       } else {
         write_one(attribute, spread(view_, i, attribute.components, values));
       }
@@ -48,11 +49,15 @@ class AttributeWriter {
   void write_one(const Attribute& attribute, const std::vector<float>& values) {
     const std::size_t components = attribute.components;
     if (attribute.kind == AttributeKind::kTexcoord && components >= 2) {
+      keep_name(fmt::format("TEXCOORD_{}", result_.texcoord_sets), attribute);
       write_texcoords(components, values);
     } else if (attribute.kind == AttributeKind::kColour && components >= 3) {
+      keep_name(fmt::format("COLOR_{}", colour_sets_), attribute);
       write_colours(components, values);
     } else {
-      write_floats(name_of(attribute), components, values);
+      const std::string name = name_of(attribute);
+      keep_name(name, attribute);
+      write_floats(name, components, values);
     }
   }
 
@@ -92,6 +97,10 @@ class AttributeWriter {
         {GltfComponent::kFloat, kTypes[components], view_.vertex_count(), false, {}, {}});
     buffer_.write(std::span<const float>(values));
     buffer_.end_view();
+  }
+
+  void keep_name(const std::string& in_gltf, const Attribute& attribute) {
+    if (attribute.name != in_gltf) result_.names[in_gltf] = attribute.name;
   }
 
   /// Names of one's own begin with an underscore and have no lower-case letters.

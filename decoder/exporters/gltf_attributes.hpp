@@ -14,6 +14,8 @@ namespace tvg::cli {
 /// The attributes of a mesh's render vertices in its first frame, in the buffer.
 struct GltfAttributes {
   nlohmann::json accessors = nlohmann::json::object();  ///< by glTF's names, as a primitive has them
+  /// What attributes are called, by glTF's names, where that is another name.
+  nlohmann::json names = nlohmann::json::object();
   std::size_t texcoord_sets = 0;
   std::optional<std::size_t> normal;  ///< which of the properties' attributes NORMAL is
   std::vector<float> normals;         ///< [render vertex][xyz]; empty where there are none

@@ -1,5 +1,7 @@
 #include "decoder/exporters/gltf_materials.hpp"
 
+#include "decoder/exporters/gltf_material_repair.hpp"
+
 #include <algorithm>
 
 namespace tvg::cli {
@@ -8,8 +10,12 @@ using nlohmann::json;
 
 namespace {
 
-/// A name of a file as a URI has it. Names of programs other than glTF's have blanks and backslashes.
-std::string as_uri(const std::string& name) {
+/// A name of a file as a URI has it. Names of programs other than glTF's have blanks and backslashes, and may
+/// be those of another machine's disk ("C:/work/wood.jpg"), of which the last part is kept.
+std::string as_uri(std::string name) {
+  const bool is_of_a_disk = name.starts_with('/') || name.starts_with('\\') ||
+                            (name.size() > 1 && name[1] == ':');
+  if (is_of_a_disk) name.erase(0, name.find_last_of("/\\:") + 1);
   std::string uri;
   for (const char c : name) {
     if (c == ' ') {
@@ -65,6 +71,7 @@ json GltfMaterials::image(json described, GltfBuffer& buffer) {
     buffer.end_view();
     described["bufferView"] = buffer.view();
     described["mimeType"] = type;
+    if (name.empty()) name = data.substr(data.find('/') + 1);
     if (!described.contains("name") && !name.empty()) described["name"] = name;
     return described;
   }
@@ -117,7 +124,10 @@ void GltfMaterials::write(json& document, GltfBuffer& buffer, std::size_t texcoo
     keep_index_below(texture, "source", images.size());
     keep_index_below(texture, "sampler", samplers.size());
   }
-  for (json& material : materials_) clean_textures(material, textures.size(), texcoord_sets);
+  for (json& material : materials_) {
+    repair_gltf_material(material);
+    clean_textures(material, textures.size(), texcoord_sets);
+  }
   document["materials"] = materials_;
   document["textures"] = std::move(textures);
   document["images"] = std::move(images);

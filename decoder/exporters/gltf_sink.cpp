@@ -236,7 +236,8 @@ void GltfSink::write_nodes() {
   if (!animation["channels"].empty()) document_["animations"] = json::array({std::move(animation)});
 }
 
-/// What is known once everything is written; empty lists are not valid.
+/// What is known once everything is written; empty lists are not valid. What comes back to the importer alone
+/// is among the extras of `asset`.
 void GltfSink::complete_document() {
   if (extras_.is_object()) {
     if (const auto scene = extras_.find("scene"); scene != extras_.end()) {
@@ -245,6 +246,7 @@ void GltfSink::complete_document() {
     }
     if (!extras_.empty()) document_["extras"] = extras_;
   }
+  if (!metadata_.empty()) document_["asset"]["extras"]["metadata"] = metadata_;
   std::set<std::string> used = materials_.extensions();
   if (options_.gltf_quantized) {
     used.insert("KHR_mesh_quantization");

@@ -1,6 +1,7 @@
 #include "decoder/exporters/gltf_stretch.hpp"
 
 #include "decoder/exporters/bytes.hpp"
+#include "decoder/exporters/gltf_part_extras.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
@@ -173,12 +174,12 @@ json GltfStretch::primitives(GltfBuffer& buffer, GltfMaterials& materials) const
     primitive["indices"] =
         buffer.add_accessor({GltfComponent::kUnsignedInt, "SCALAR", range.index_count, false, {}, {}});
     buffer.write(view_.indices().subspan(range.first_index, range.index_count));
-    if (part < properties_.parts.size()) {
-      const Part& described = properties_.parts[part];
-      if (!described.material.empty()) primitive["material"] = materials.number_of(described.material);
-      if (!described.object.empty()) primitive["extras"]["object"] = described.object;
-      if (!described.group.empty()) primitive["extras"]["group"] = described.group;
-    }
+    if (part < properties_.parts.size() && !properties_.parts[part].material.empty())
+      primitive["material"] = materials.number_of(properties_.parts[part].material);
+    json extras = gltf_part_extras(
+        properties_, part, view_.source_faces().subspan(range.first_index / 3, range.index_count / 3));
+    if (!attributes_.names.empty()) extras["names"] = attributes_.names;
+    if (!extras.is_null()) primitive["extras"] = std::move(extras);
     list.push_back(std::move(primitive));
   }
   buffer.end_view();

@@ -33,7 +33,7 @@ Holds holds(HeldBy format) {
     case HeldBy::kStl:
       return {Held::kNo, Held::kNo, Held::kNo, false, false, false, false};
     case HeldBy::kGltf:
-      return {Held::kPerCorner, Held::kPerCorner, Held::kPerCorner, true, true, true, false};
+      return {Held::kPerCorner, Held::kPerCorner, Held::kPerCorner, true, true, true, true};
   }
   return {};
 }
@@ -84,8 +84,8 @@ class Judge {
     const std::string what = attribute.name.empty()
                                  ? fmt::format("further {}", kKinds[static_cast<std::size_t>(attribute.kind)])
                                  : fmt::format("\"{}\"", one_line(attribute.name));
-    const bool of_corners = format_ == HeldBy::kGltf && attribute.domain == AttributeDomain::kCorner;
-    if (!holds_.others || (!of_corners && !vertex_values(mesh_, attribute))) {
+    const bool held_by_gltf = format_ == HeldBy::kGltf && attribute.domain != AttributeDomain::kVertex;
+    if (!holds_.others || (!held_by_gltf && !vertex_values(mesh_, attribute))) {
       lost_.push_back(what);
     } else if (format_ == HeldBy::kGltf && attribute.animated) {
       lost_.push_back(fmt::format("how {} changes over time (it stays as it is first)", what));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 namespace tvg::cli {
 
@@ -16,7 +17,8 @@ class ClipReader {
         model_(document.model),
         nodes_(nodes),
         animation_(model_.animations[index]),
-        accessors_(accessors) {
+        accessors_(accessors),
+        is_own_(document.is_own) {
     clip_.name = scene.clip_names[index];
   }
 
@@ -30,12 +32,23 @@ class ClipReader {
       read_channel(channel, static_cast<std::size_t>(channel.target_node));
     }
     clip_.finish(scene_.path, scene_.nodes);
+    if (is_own_) clip_.frame_times = key_times();
     return std::move(clip_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
     scene_.fail(fmt::format("clip \"{}\" {}", clip_.name, what));
+  }
+
+  /// Every frame of our own files has a key, of its weight or of the node that shows its mesh.
+  std::vector<double> key_times() const {
+    std::set<double> times;
+    for (const MorphChannel& channel : clip_.morphs)
+      times.insert(channel.weights.times.begin(), channel.weights.times.end());
+    for (const NodeChannel& channel : clip_.nodes)
+      times.insert(channel.scales.times.begin(), channel.scales.times.end());
+    return {times.begin(), times.end()};
   }
 
   void read_channel(const tinygltf::AnimationChannel& channel, std::size_t node) {
@@ -107,6 +120,7 @@ class ClipReader {
   const GltfNodes& nodes_;
   const tinygltf::Animation& animation_;
   GltfAccessors& accessors_;
+  bool is_own_;
   Clip clip_;
   std::map<std::size_t, std::size_t> channel_of_;  // of the clip, by node
 };

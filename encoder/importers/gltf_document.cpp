@@ -20,6 +20,10 @@ constexpr std::size_t kChunkHeaderSize = 8;
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
 constexpr std::uint32_t kBinaryChunk = 0x004e4942;
 
+/// Entries of a stream's metadata that come back, and bytes of each key and value.
+constexpr std::size_t kMostMetadata = 64;
+constexpr std::size_t kLongestMetadata = 1024;
+
 /// Of objects and lists in each other; what is read of glTF has 8.
 constexpr int kMostDepth = 64;
 
@@ -181,8 +185,10 @@ Json listed_extras(const Json& list) {
   return found;
 }
 
-Json collect_extras(const Json& json) {
+Json collect_extras(const Json& json, bool is_own) {
   Json extras = Json::object();
+  // Nodes and meshes of our own files are not those that their extras were of.
+  if (is_own && member(json, "extras").is_object()) extras = json["extras"];
   const Json& scenes = member(json, "scenes");
   const Json& shown = member(json, "scene");
   const std::size_t index = shown.is_number_unsigned() ? shown.get<std::size_t>() : 0;
@@ -190,10 +196,29 @@ Json collect_extras(const Json& json) {
     const Json& of_scene = member(scenes[index], "extras");
     if (!of_scene.is_null()) extras["scene"] = of_scene;
   }
+  if (is_own) return extras;
   for (const char* list : {"nodes", "meshes"}) {
     if (Json found = listed_extras(member(json, list)); !found.empty()) extras[list] = std::move(found);
   }
   return extras;
+}
+
+/// What a stream said of itself; how its coordinates lie is what nodes say.
+Metadata read_metadata(const Json& extras) {
+  Metadata metadata;
+  const Json& kept = member(extras, "metadata");
+  if (!kept.is_object()) return metadata;
+  for (const auto& [key, value] : kept.items()) {
+    const bool is_told = key == "up" || key == "units" || key == "origin" || key == "fps" || key == "start" ||
+                         key == "shading";
+    if (is_told || key.empty() || !value.is_string() || metadata.size() == kMostMetadata) continue;
+    const std::string text = value.get<std::string>();
+    if (key.size() > kLongestMetadata || text.size() > kLongestMetadata || !is_metadata_text(key) ||
+        !is_metadata_text(text))
+      continue;
+    metadata.emplace(key, text);
+  }
+  return metadata;
 }
 
 /// Leaves what tinygltf is to read. It wants the bytes of buffers and images at once (which are brought in
@@ -230,7 +255,9 @@ GltfDocument read_gltf_document(const std::string& path, std::string_view bytes)
   document.notes = extension_notes(path, texts(member(json, "extensionsUsed")));
   document.buffers = read_buffers(path, member(json, "buffers"));
   document.materials = take_materials(json);
-  document.extras = collect_extras(json);
+  document.is_own = member(member(json, "asset"), "generator") == "TVG";
+  if (document.is_own) document.metadata = read_metadata(member(member(json, "asset"), "extras"));
+  document.extras = collect_extras(json, document.is_own);
   prepare(json);
   std::string reason;
   if (!load_gltf_model(json.dump(), document.model, reason)) {

@@ -1,6 +1,7 @@
 #include "encoder/importers/gltf_mesh.hpp"
 
 #include "encoder/importers/gltf_attributes.hpp"
+#include "encoder/importers/gltf_own_extras.hpp"
 
 #include <fmt/format.h>
 #include <limits>
@@ -147,7 +148,7 @@ class PrimitiveReader {
 }  // namespace
 
 std::vector<ScenePart> read_gltf_mesh(const Scene& scene, const tinygltf::Mesh& mesh, const std::string& name,
-                                      GltfAccessors& accessors, bool with_attributes) {
+                                      GltfAccessors& accessors, bool with_attributes, bool is_own) {
   std::vector<ScenePart> parts;
   for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
     const tinygltf::Primitive& primitive = mesh.primitives[i];
@@ -156,6 +157,7 @@ std::vector<ScenePart> read_gltf_mesh(const Scene& scene, const tinygltf::Mesh& 
     const std::string which = mesh.primitives.size() > 1 ? fmt::format(", primitive {}", i) : "";
     parts.push_back(PrimitiveReader(scene, primitive, fmt::format("mesh \"{}\"{}", name, which), accessors)
                         .read(with_attributes));
+    if (is_own && with_attributes) read_own_extras(primitive.extras, parts.back());
   }
   return parts;
 }

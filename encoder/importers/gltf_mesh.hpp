@@ -6,8 +6,9 @@
 
 namespace tvg::cli {
 
-/// A mesh of glTF, a part for each primitive that has positions. Throws ImportError.
+/// A mesh of glTF, a part for each primitive that has positions. `is_own`: GltfDocument::is_own. Throws
+/// ImportError.
 std::vector<ScenePart> read_gltf_mesh(const Scene& scene, const tinygltf::Mesh& mesh, const std::string& name,
-                                      GltfAccessors& accessors, bool with_attributes);
+                                      GltfAccessors& accessors, bool with_attributes, bool is_own);
 
 }  // namespace tvg::cli

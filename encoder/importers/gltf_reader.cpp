@@ -25,6 +25,7 @@ class GltfReader final : public SceneReader {
     if (!is_read()) return;
     accessors_ = std::make_unique<GltfAccessors>(scene_.path, document_, std::move(read_file), limits);
     scene_.metadata = {{"units", "m"}, {"up", "y"}};
+    scene_.metadata.insert(document_.metadata.begin(), document_.metadata.end());
     scene_.notes = document_.notes;
     scene_.most_vertices = limits.most_vertices(bytes_.size());
     for (std::size_t i = 0; i < model().meshes.size(); ++i) {
@@ -43,7 +44,7 @@ class GltfReader final : public SceneReader {
 
   std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const override {
     return read_gltf_mesh(scene_, model().meshes[mesh], scene_.mesh_names[mesh], *accessors_,
-                          with_attributes);
+                          with_attributes, document_.is_own);
   }
   Clip read_clip(std::size_t clip, std::vector<std::string>& /*notes*/) const override {
     return read_gltf_clip(scene_, document_, nodes_, clip, *accessors_);

@@ -171,7 +171,7 @@ bool MeshSequenceSource::load(std::size_t file) {
   }
   current_.origin = options_.origin;
   current_.positions_only = positions_only;
-  read_located_mesh(files_[file], format_, buffer_, current_);
+  read_mesh(files_[file], current_);
   loaded_ = file;
   return true;
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -97,6 +98,7 @@ class MeshSequenceSource final : public FrameSource {
   void look_ahead();
   bool look_at_file(std::size_t file);
   void read_materials_of(const std::string& file);
+  void read_mesh(const std::string& file, MeshFile& mesh);
   void read_values(const std::string& path);
   void tell(const std::string& file, const std::vector<std::string>& notes);
   void begin_empty_stretch(const std::string& what);
@@ -117,6 +119,7 @@ class MeshSequenceSource final : public FrameSource {
   std::deque<std::shared_ptr<KnownMesh>> seen_;  // the last few, the latest behind
   std::string name_;
   std::vector<NamedData> data_;
+  std::map<std::string, std::map<std::string, std::string>> renamed_materials_;  // by file
   StlWeld stl_;
   std::size_t stretch_ = 0;  // the file that the present mesh begins with
   std::size_t next_ = 0;

@@ -2,7 +2,9 @@
 #include "encoder/importers/materials.hpp"
 #include "encoder/importers/mesh_sequence.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <span>
 
 // What a sequence of mesh files has beside positions.
 namespace tvg::cli {
@@ -27,7 +29,7 @@ bool MeshSequenceSource::look_at_file(std::size_t file) {
   ahead_.origin = options_.origin;
   ahead_.positions_only = false;
   try {
-    read_located_mesh(files_[file], format_, buffer_, ahead_);
+    read_mesh(files_[file], ahead_);
   } catch (const ImportError&) {
     return false;  // told when the frame is read
   }
@@ -39,10 +41,26 @@ bool MeshSequenceSource::look_at_file(std::size_t file) {
   return true;
 }
 
-/// The materials of the first file with a mesh are those of the sequence.
+/// Materials of the first file with a mesh and of all that come after it.
 void MeshSequenceSource::read_materials_of(const std::string& file) {
   if (known_ != nullptr || !data_.empty() || !options_.properties.wanted) return;
-  data_ = read_materials(file, current_, options_.properties.embed_textures, notes_);
+  const std::size_t next = std::min(stretch_ + 1, files_.size());
+  SequenceMaterials materials =
+      read_sequence_materials(file, current_, std::span(files_).subspan(next),
+                              options_.properties.embed_textures, notes_);
+  data_ = std::move(materials.data);
+  renamed_materials_ = std::move(materials.renamed);
+}
+
+/// Reads a file, its materials called as the sequence calls them.
+void MeshSequenceSource::read_mesh(const std::string& file, MeshFile& mesh) {
+  read_located_mesh(file, format_, buffer_, mesh);
+  const auto renamed = renamed_materials_.find(file);
+  if (renamed == renamed_materials_.end()) return;
+  for (Part& part : mesh.parts) {
+    if (const auto name = renamed->second.find(part.material); name != renamed->second.end())
+      part.material = name->second;
+  }
 }
 
 /// Notes on the first mesh are told at once, on others later.

@@ -43,6 +43,8 @@ struct Clip {
   std::string name;
   std::vector<NodeChannel> nodes;
   std::vector<MorphChannel> morphs;
+  /// Of a clip that `tvg decode` wrote: when its frames are, in seconds. Else empty.
+  std::vector<double> frame_times;
   double first = 0;  ///< time of the first key, in seconds, of all tracks with more than one
   double last = 0;   ///< time of their last key
 

@@ -111,6 +111,7 @@ void weld(SceneMesh& mesh) {
     welded.morph_begin.push_back(welded.morphs.size());
   }
   for (Attribute& attribute : mesh.properties.attributes) {
+    if (attribute.domain == AttributeDomain::kPart) continue;
     attribute = with_joined_vertices(attribute, mesh.mesh.faces, found.vertex_of_point, found.vertex_count());
   }
   for (Face& face : mesh.mesh.faces) {

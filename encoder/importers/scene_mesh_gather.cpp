@@ -86,17 +86,27 @@ class Gatherer {
       polygon.first_triangle += result_.mesh.faces.size();
       properties.polygons.push_back(polygon);
     }
-    Part names{plain_name(scene_.nodes.list()[instance.node].name),
-               plain_name(scene_.mesh_names[instance.mesh]),
-               part.material ? scene_.material_names[*part.material] : ""};
-    const auto key = std::tuple(names.object, names.group, names.material);
+    Part names = part.names.value_or(Part{plain_name(scene_.nodes.list()[instance.node].name),
+                                          plain_name(scene_.mesh_names[instance.mesh]), ""});
+    if (part.material) names.material = scene_.material_names[*part.material];
+    const auto key = std::tuple(names.object, names.group, names.material, part.values);
     const auto [entry, is_new] = part_of_.emplace(key, static_cast<std::uint32_t>(properties.parts.size()));
-    if (is_new) properties.parts.push_back(std::move(names));
+    if (is_new) {
+      properties.parts.push_back(std::move(names));
+      values_of_parts_.push_back(part.values);
+    }
     properties.face_parts.insert(properties.face_parts.end(), part.faces.size(), entry->second);
   }
 
   void finish_properties(std::vector<std::string>& notes) {
-    result_.properties.attributes = attributes_.finish();
+    MeshProperties& properties = result_.properties;
+    properties.attributes = attributes_.finish();
+    finish_values_of_parts();
+    // What has no name, material and value is not worth a part.
+    if (properties.parts.size() == 1 && properties.parts[0] == Part{} && values_of_parts_[0].empty()) {
+      properties.parts.clear();
+      properties.face_parts.clear();
+    }
     if (attributes_.left_out() > 0) {
       notes.push_back(fmt::format("{}: it has more than {} attributes, of which {} are taken", scene_.path,
                                   kMaxAttributes, kMaxAttributes));
@@ -108,6 +118,28 @@ class Gatherer {
     }
     if (told > kMostNotes)
       notes.push_back(fmt::format("{}: {} more notes on attributes", scene_.path, told - kMostNotes));
+  }
+
+  /// The numbers of parts as attributes, 0 for a part that has none.
+  void finish_values_of_parts() {
+    std::map<std::string, std::size_t> widths;
+    for (const auto& values : values_of_parts_) {
+      for (const auto& [name, numbers] : values) widths[name] = std::max(widths[name], numbers.size());
+    }
+    for (const auto& [name, width] : widths) {
+      if (result_.properties.attributes.size() == kMaxAttributes) return;
+      Attribute attribute = empty_attribute(name, AttributeKind::kGeneric, static_cast<std::uint32_t>(width));
+      attribute.domain = AttributeDomain::kPart;
+      attribute.bits = Attribute::kExact;
+      for (const auto& values : values_of_parts_) {
+        const auto found = values.find(name);
+        for (std::size_t i = 0; i < width; ++i) {
+          const bool has = found != values.end() && i < found->second.size();
+          attribute.values.push_back(has ? found->second[i] : 0.0F);
+        }
+      }
+      result_.properties.attributes.push_back(std::move(attribute));
+    }
   }
 
   /// Turns faces to look the other way. The fan of a polygon then begins with its last triangle.
@@ -270,7 +302,9 @@ class Gatherer {
   std::vector<Transform> global_;  // [node], where the clip begins
   SceneMesh result_;
   AttributeGatherer attributes_;
-  std::map<std::tuple<std::string, std::string, std::string>, std::uint32_t> part_of_;
+  using PartValues = std::map<std::string, std::vector<float>>;
+  std::map<std::tuple<std::string, std::string, std::string, PartValues>, std::uint32_t> part_of_;
+  std::vector<PartValues> values_of_parts_;  // [part]
   std::set<std::string> notes_;
   std::map<std::size_t, std::vector<ScenePart>> parts_;        // by mesh
   std::set<std::pair<std::size_t, std::size_t>> skinned_;      // mesh and skin of those that have been taken

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,6 +73,8 @@ struct ScenePart {
   std::vector<Polygon> polygons;             ///< that became fans of faces
   std::optional<std::size_t> material = {};  ///< one of the scene's
   std::uint64_t left_out = 0;                ///< points and lines
+  std::optional<Part> names = {};            ///< the object and the group, where they are not node and mesh
+  std::map<std::string, std::vector<float>> values = {};  ///< of the part, by name
   std::vector<std::string> notes;            ///< on attributes that are left out
 };
 

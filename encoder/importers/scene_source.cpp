@@ -1,6 +1,7 @@
 #include "encoder/importers/scene_source.hpp"
 
 #include "encoder/importers/bytes.hpp"
+#include "encoder/importers/frame_times.hpp"
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/keyframe_source.hpp"
 #include "encoder/importers/scene_attributes.hpp"
@@ -31,13 +32,13 @@ class SceneSource final : public FrameSource {
         mesh_(std::move(mesh)),
         metadata_(scene.metadata),
         fps_(fps),
-        frame_count_(clip_.frame_count(fps)),
+        frame_count_(clip_.frame_times.empty() ? clip_.frame_count(fps) : clip_.frame_times.size()),
         rest_(nodes_.rest_pose()),
         skeleton_(find_skeleton(nodes_, mesh_)) {}
 
   /// Before the first frame is read.
-  void settle(const SceneOptions& options, const std::string& rate, std::vector<NamedData> data,
-              std::vector<std::string>& notes);
+  void settle(const SceneOptions& options, const std::string& rate, const std::string& start,
+              std::vector<NamedData> data, std::vector<std::string>& notes);
 
   const Mesh& mesh() const override { return mesh_.mesh; }
   const MeshProperties& properties() const override { return mesh_.properties; }
@@ -86,7 +87,8 @@ void SceneSource::pose_morphs(double seconds) {
 
 Result<bool> SceneSource::read_frame(std::span<float> positions) {
   if (next_ >= frame_count_) return false;
-  const double seconds = clip_.time_of(next_, fps_);
+  const double seconds =
+      clip_.frame_times.empty() ? clip_.time_of(next_, fps_) : clip_.frame_times[next_];
   clip_.pose(seconds, rest_, local_);
   nodes_.to_scene_space(local_, global_);
   pose_morphs(seconds);
@@ -105,10 +107,12 @@ Result<bool> SceneSource::read_frame(std::span<float> positions) {
   return true;
 }
 
-void SceneSource::settle(const SceneOptions& options, const std::string& rate, std::vector<NamedData> data,
-                         std::vector<std::string>& notes) {
-  metadata_.emplace("fps", rate);
-  if (!clip_.name.empty() && is_plain_text(clip_.name)) metadata_.emplace("name", clip_.name);
+void SceneSource::settle(const SceneOptions& options, const std::string& rate, const std::string& start,
+                         std::vector<NamedData> data, std::vector<std::string>& notes) {
+  if (!start.empty()) metadata_.emplace("start", start);
+  if (!rate.empty()) metadata_.emplace("fps", rate);
+  // Our own clips have a name of ours.
+  if (clip_.frame_times.empty() && !clip_.name.empty() && is_plain_text(clip_.name)) metadata_.emplace("name", clip_.name);
   data_ = std::move(data);
   std::vector<std::string> found;
   if (std::ranges::any_of(mesh_.properties.attributes, [](const Attribute& attribute) {
@@ -146,6 +150,21 @@ void note_clips(const Scene& scene, std::size_t chosen, std::vector<std::string>
                               scene.clip_names[chosen], fmt::join(others, ", ")));
 }
 
+/// What the times of a clip's frames say, where it has any.
+struct KeptTimes {
+  explicit KeptTimes(const std::vector<double>& seconds) {
+    FrameTimes times;
+    for (const double time : seconds) times.add(static_cast<float>(time));
+    start = times.start(1);
+    rate = times.rate();
+    if (rate.empty() && seconds.size() > 1) data = times.data();
+  }
+
+  std::string rate;
+  std::string start;
+  std::optional<NamedData> data;  ///< where frames do not follow each other at a rate
+};
+
 std::vector<Transform> places_at(const SceneNodes& nodes, const Clip& clip, double seconds) {
   std::vector<Transform> local, global;
   clip.pose(seconds, nodes.rest_pose(), local);
@@ -174,7 +193,7 @@ OpenedScene open_scene(const std::string& path, const SceneOptions& options) {
 }
 
 OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
-  const std::string rate = options.fps.empty() ? kDefaultFps : options.fps;
+  std::string rate = options.fps.empty() ? kDefaultFps : options.fps;
   const double fps = parse_rate(rate);
   OpenedScene opened;
   const Scene& scene = reader.scene();
@@ -188,6 +207,9 @@ OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
   } else {
     opened.notes.push_back(fmt::format("{}: it holds no clip, so its one pose is the one frame", path));
   }
+  if (!options.fps.empty()) clip.frame_times.clear();
+  const KeptTimes kept(clip.frame_times);
+  if (!clip.frame_times.empty()) rate = kept.rate;
   SceneMesh mesh = gather_meshes(reader, clip, options.meshes, options.properties.wanted, opened.notes);
   place_normals(mesh, places_at(scene.nodes, clip, clip.first));
   const std::size_t vertices_before = mesh.positions.size();
@@ -196,7 +218,8 @@ OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
   auto source = std::make_unique<SceneSource>(scene, std::move(clip), std::move(mesh), fps);
   std::vector<NamedData> data;
   if (options.properties.wanted) data = reader.read_data(options.properties.embed_textures, opened.notes);
-  source->settle(options, rate, std::move(data), opened.notes);
+  if (kept.data) data.push_back(*kept.data);
+  source->settle(options, rate, kept.start, std::move(data), opened.notes);
   opened.source = std::move(source);
   return opened;
 }
