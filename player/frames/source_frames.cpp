@@ -15,7 +15,7 @@ class SourceFrames final : public ShownFrames {
   explicit SourceFrames(const ShownFramesSpec& spec) {
     const bool cut = spec.frames && !spec.whole_gops;
     source_ = spec.open_source(spec.inputs, cut ? spec.frames : std::nullopt);
-    mesh_ = std::make_shared<const Mesh>(source_->mesh());
+    take_mesh();
     if (cut) begin_ = spec.frames->first;
     number_ = begin_;
     if (!spec.frames || cut) return;
@@ -26,12 +26,8 @@ class SourceFrames final : public ShownFrames {
   }
 
   bool next(ShownFrame& frame) override {
-    frame.positions.resize(3 * std::size_t{mesh_->vertex_count});
     do {
-      if (number_ > last_) return false;
-      const Result<bool> read = source_->read_frame(frame.positions);
-      if (!read) throw cli::tool_error(read.error());
-      if (!*read) return false;
+      if (number_ > last_ || !read(frame.positions)) return false;
     } while (number_++ < first_);
     frame.mesh = mesh_;
     frame.number = number_ - 1;
@@ -46,6 +42,7 @@ class SourceFrames final : public ShownFrames {
   bool rewind() override {
     if (!source_->rewind()) return false;
     number_ = begin_;
+    if (source_->mesh_may_change()) take_mesh();
     return true;
   }
 
@@ -57,6 +54,18 @@ class SourceFrames final : public ShownFrames {
   Metadata metadata() const override { return source_->metadata(); }
 
  private:
+  void take_mesh() { mesh_ = std::make_shared<const Mesh>(source_->mesh()); }
+
+  /// Reads a frame, of the next mesh where that begins here. False at the end.
+  bool read(FramePositions& positions) {
+    for (;;) {
+      const Result<SourceStep> step = read_step(*source_, positions);
+      if (!step) throw cli::tool_error(step.error());
+      if (*step != SourceStep::kMesh) return *step == SourceStep::kFrame;
+      take_mesh();
+    }
+  }
+
   inline static const std::uint64_t kGopFrames = EncodeOptions{}.gop_frames;
 
   std::unique_ptr<FrameSource> source_;
