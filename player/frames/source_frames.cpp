@@ -15,6 +15,11 @@ class SourceFrames final : public ShownFrames {
   explicit SourceFrames(const ShownFramesSpec& spec) {
     const bool cut = spec.frames && !spec.whole_gops;
     source_ = spec.open_source(spec.inputs, cut ? spec.frames : std::nullopt);
+    has_surfaces_ = spec.surfaces;
+    if (has_surfaces_) {
+      for (const NamedData& data : source_->data()) materials_.take(data);
+      materials_.make(folder_of(spec.inputs));
+    }
     take_mesh();
     if (cut) begin_ = spec.frames->first;
     number_ = begin_;
@@ -30,6 +35,7 @@ class SourceFrames final : public ShownFrames {
       if (number_ > last_ || !read(frame.positions)) return false;
     } while (number_++ < first_);
     frame.mesh = mesh_;
+    frame.surface = surface_;
     frame.number = number_ - 1;
     frame.gop = frame.number / kGopFrames;
     frame.flags.reset();
@@ -54,7 +60,10 @@ class SourceFrames final : public ShownFrames {
   Metadata metadata() const override { return source_->metadata(); }
 
  private:
-  void take_mesh() { mesh_ = std::make_shared<const Mesh>(source_->mesh()); }
+  void take_mesh() {
+    mesh_ = std::make_shared<const Mesh>(source_->mesh());
+    if (has_surfaces_) surface_ = make_surface(*mesh_, source_->properties(), materials_);
+  }
 
   /// Reads a frame, of the next mesh where that begins here. False at the end.
   bool read(FramePositions& positions) {
@@ -70,6 +79,9 @@ class SourceFrames final : public ShownFrames {
 
   std::unique_ptr<FrameSource> source_;
   std::shared_ptr<const Mesh> mesh_;
+  bool has_surfaces_ = false;
+  ShownMaterials materials_;
+  std::shared_ptr<const Surface> surface_;
   std::uint64_t begin_ = 0;   // number of the source's first frame
   std::uint64_t number_ = 0;  // of the source's next frame
   std::uint64_t first_ = 0;   // frames before it are passed over

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <tvg/data.hpp>
+
 namespace tvg::player {
 
 namespace {
@@ -56,6 +58,8 @@ class StreamFrames final : public ShownFrames {
     loaded_ = ended_ = false;
     held_ = {};
     mesh_.reset();
+    surface_.reset();
+    materials_ = {};
     number_ = lost_end_ = gop_ = 0;
     const auto index = reader_->read_index();
     if (index) {
@@ -91,7 +95,10 @@ class StreamFrames final : public ShownFrames {
     const Decoder& decoder = reader_->decoder();
     switch (event) {
       case Decoder::Event::kMesh:
-        mesh_ = std::make_shared<const Mesh>(decoder.mesh());
+        take_mesh(decoder);
+        break;
+      case Decoder::Event::kData:
+        if (spec_.surfaces) take_data(decoder.data());
         break;
       case Decoder::Event::kGop:
         begin_gop(decoder);
@@ -115,6 +122,17 @@ class StreamFrames final : public ShownFrames {
     }
   }
 
+  void take_mesh(const Decoder& decoder) {
+    if (spec_.surfaces && !mesh_) materials_.make(folder_of(spec_.inputs));
+    mesh_ = std::make_shared<const Mesh>(decoder.mesh());
+    if (spec_.surfaces) surface_ = make_surface(*mesh_, decoder.properties(), materials_);
+  }
+
+  void take_data(const CodedData& coded) {
+    if (mesh_ || !ShownMaterials::wants(coded.name)) return;
+    if (Result<NamedData> data = unpack_data(coded)) materials_.take(*std::move(data));
+  }
+
   void begin_gop(const Decoder& decoder) {
     const GopInfo& gop = decoder.gop();
     ++gop_;
@@ -131,6 +149,7 @@ class StreamFrames final : public ShownFrames {
     loaded_frame_.number = decoder.frame_number();
     loaded_frame_.gop = gop_;
     loaded_frame_.mesh = mesh_;
+    loaded_frame_.surface = surface_;
     loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
     decoder.copy_positions(loaded_frame_.positions.data());
     loaded_frame_.flags = flags_;
@@ -151,6 +170,8 @@ class StreamFrames final : public ShownFrames {
   cli::Concealment concealment_;
   std::unique_ptr<cli::StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
+  ShownMaterials materials_;
+  std::shared_ptr<const Surface> surface_;
   std::optional<std::uint64_t> total_;
   std::shared_ptr<const std::vector<std::uint8_t>> flags_;  // of the present GOP
   ShownFrame loaded_frame_;                                 // the newest that the decoder gave

@@ -77,6 +77,7 @@ class RenderJob {
     const UpAxis up_axis = up_axis_of(frames_.metadata());
     camera.fit_closely(bounds_, up_axis, static_cast<double>(cell_width) / cell_height);
     painter.set_scene(bounds_, up_axis, camera);
+    if (!options_.shading_is_given) painter.set_shading(shading_of(frames_.metadata()));
   }
 
   void draw_frames(PicturePainter& painter) {

@@ -2,11 +2,14 @@
 #include "player/view/bounds.hpp"
 #include "player/view/camera.hpp"
 #include "player/view/gl_objects.hpp"
+#include "player/view/surface.hpp"
 #include "tool/colour_map.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include <tvg/types.hpp>
 
@@ -37,6 +40,9 @@ class MeshRenderer {
 
   /// The mesh of the frames that follow; nothing is drawn until set_frame().
   void set_mesh(const Mesh& mesh);
+  /// How that mesh looks where no values colour it; null for one colour. After set_mesh(), before
+  /// set_frame().
+  void set_surface(std::shared_ptr<const Surface> surface);
 
   /// What the ground grid lies under and how wide it is: the box of all that will be shown.
   void set_scene(const BoundingBox& bounds, UpAxis up);
@@ -62,21 +68,32 @@ class MeshRenderer {
     GLint surface = -1;
     GLint half_viewport = -1;
     GLint point_size = -1;
+    GLint factor = -1;
+    GLint cutoff = -1;
+    GLint textured = -1;
   };
 
   const MeshProgram& mesh_program(const Style& style);
   void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
   void draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
+  void draw_faces(const Style& style);
+  void draw_runs(const MeshProgram& program, const Style& style);
+  void use_material(const MeshProgram& program, const ShownMaterial& material, std::size_t run);
   void use_colour_map(cli::ColourMap map);
 
   GlVertexArray mesh_array_, empty_array_;
-  GlBuffer positions_, normals_, values_, faces_, draft_faces_;
+  GlBuffer positions_, normals_, values_, faces_, draft_faces_, surface_faces_, vertex_colours_, texcoords_;
   GlTexture colours_;
   GlProgram background_, grid_;
-  std::array<MeshProgram, 16> programs_;  // by what they do, made when first used
+  std::array<MeshProgram, 32> programs_;  // by what they do, made when first used
   std::uint32_t vertex_count_ = 0;
   std::size_t face_count_ = 0;
   std::size_t draft_face_count_ = 0;  // 0: there are not so many faces
+  std::shared_ptr<const Surface> surface_;
+  SurfaceFrame surface_frame_;
+  std::vector<GlTexture> pictures_;        // of the surface's materials
+  std::vector<std::size_t> run_pictures_;  // [run], its place in pictures_
+  bool shows_surface_ = false;             // the frame is drawn by surface_
   bool has_frame_ = false;
   bool has_normals_ = false;
   bool has_values_ = false;
