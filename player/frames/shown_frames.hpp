@@ -45,6 +45,8 @@ class ShownFrames {
   virtual std::string note() const { return {}; }
   /// Valid as soon as the frames are open.
   virtual Metadata metadata() const = 0;
+  /// When frames are, in seconds, where they are not evenly spaced; else empty. Valid as the metadata are.
+  virtual std::vector<double> times() const { return {}; }
 };
 
 struct ShownFramesSpec {

@@ -1,4 +1,5 @@
 #include "player/frames/shown_frames.hpp"
+#include "tool/frame_times.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
@@ -58,6 +59,17 @@ class SourceFrames final : public ShownFrames {
   }
   const Skeleton& skeleton() const override { return source_->skeleton(); }
   Metadata metadata() const override { return source_->metadata(); }
+  std::vector<double> times() const override {
+    std::vector<double> times;
+    for (const NamedData& data : source_->data()) {
+      if (data.name == "times") times = cli::times_from(data.bytes);
+    }
+    // A source that was cut has the times of what is left of it; what is before them is not shown.
+    for (std::uint64_t i = 0; i < begin_ && !times.empty(); ++i)
+      times.insert(times.begin(), times.front() - 1);
+    return times;
+  }
+  std::string note() const override { return materials_.note(); }
 
  private:
   void take_mesh() {

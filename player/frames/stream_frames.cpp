@@ -1,5 +1,6 @@
 #include "player/frames/shown_frames.hpp"
 #include "tool/concealment.hpp"
+#include "tool/frame_times.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/tool_error.hpp"
@@ -48,8 +49,12 @@ class StreamFrames final : public ShownFrames {
   std::optional<std::uint64_t> total() const override { return total_; }
   bool keeps_vertex_order() const override { return reader_->decoder().mesh_info().keeps_vertex_order; }
   const Skeleton& skeleton() const override { return spec_.joints ? spec_.joints->skeleton : none_; }
-  std::string note() const override { return reader_->lod_note(); }
+  std::string note() const override {
+    const std::string lod = reader_->lod_note(), textures = materials_.note();
+    return lod.empty() || textures.empty() ? lod + textures : lod + "; " + textures;
+  }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
+  std::vector<double> times() const override { return times_; }
 
  private:
   void open() {
@@ -98,7 +103,7 @@ class StreamFrames final : public ShownFrames {
         take_mesh(decoder);
         break;
       case Decoder::Event::kData:
-        if (spec_.surfaces) take_data(decoder.data());
+        take_data(decoder.data());
         break;
       case Decoder::Event::kGop:
         begin_gop(decoder);
@@ -129,8 +134,16 @@ class StreamFrames final : public ShownFrames {
   }
 
   void take_data(const CodedData& coded) {
-    if (mesh_ || !ShownMaterials::wants(coded.name)) return;
-    if (Result<NamedData> data = unpack_data(coded)) materials_.take(*std::move(data));
+    const bool is_times = coded.name == "times";
+    const bool is_wanted = is_times || (spec_.surfaces && !mesh_ && ShownMaterials::wants(coded.name));
+    if (!is_wanted) return;
+    Result<NamedData> data = unpack_data(coded);
+    if (!data) return;
+    if (is_times) {
+      times_ = cli::times_from(data->bytes);
+    } else {
+      materials_.take(*std::move(data));
+    }
   }
 
   void begin_gop(const Decoder& decoder) {
@@ -171,6 +184,7 @@ class StreamFrames final : public ShownFrames {
   std::unique_ptr<cli::StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
   ShownMaterials materials_;
+  std::vector<double> times_;
   std::shared_ptr<const Surface> surface_;
   std::optional<std::uint64_t> total_;
   std::shared_ptr<const std::vector<std::uint8_t>> flags_;  // of the present GOP

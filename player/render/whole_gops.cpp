@@ -43,6 +43,8 @@ class WholeGops final : public ShownFrames {
   bool keeps_vertex_order() const override { return gops_->keeps_vertex_order(); }
   const Skeleton& skeleton() const override { return gops_->skeleton(); }
   Metadata metadata() const override { return gops_->metadata(); }
+  std::vector<double> times() const override { return gops_->times(); }
+  std::string note() const override { return gops_->note(); }
 
  private:
   void forget_gop() {

@@ -138,6 +138,13 @@ void ShownMaterials::make(const std::string& folder) {
   pictures_.clear();
 }
 
+std::string ShownMaterials::note() const {
+  if (missing_.empty()) return {};
+  const std::string more =
+      missing_.size() == 1 ? "" : " and " + std::to_string(missing_.size() - 1) + " more";
+  return "texture " + missing_.front() + more + ": not there, or no PNG or JPEG; drawn without";
+}
+
 const ShownMaterial* ShownMaterials::find(const std::string& name) const {
   const auto found = materials_.find(name);
   return found == materials_.end() ? nullptr : &found->second;

@@ -37,8 +37,8 @@ class ShownMaterials {
   /// Null for a name that has no material.
   const ShownMaterial* find(const std::string& name) const;
   bool empty() const { return materials_.empty(); }
-  /// Pictures that are named and cannot be had, for people: "leaf.tga".
-  const std::vector<std::string>& missing() const { return missing_; }
+  /// What is to be said of pictures that are named and cannot be had; empty where there are none.
+  std::string note() const;
 
  private:
   class Reader;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <utility>
 
 namespace tvg::player {
@@ -112,11 +111,11 @@ MeshRenderer::MeshRenderer()
   glBindVertexArray(0);
 }
 
-void MeshRenderer::set_mesh(const Mesh& mesh) {
+void MeshRenderer::set_mesh(const Mesh& mesh, std::shared_ptr<const Surface> surface) {
   vertex_count_ = mesh.vertex_count;
   face_count_ = mesh.faces.size();
   has_frame_ = false;
-  set_surface(nullptr);
+  set_surface(std::move(surface));
   send_faces(faces_, mesh.faces);
   const std::vector<Face> fewer = face_count_ < kManyFaces ? std::vector<Face>() : draft_faces(mesh);
   draft_face_count_ = fewer.size();
@@ -124,18 +123,17 @@ void MeshRenderer::set_mesh(const Mesh& mesh) {
 }
 
 void MeshRenderer::set_surface(std::shared_ptr<const Surface> surface) {
-  surface_ = std::move(surface);
-  has_frame_ = false;
-  run_pictures_.clear();
-  pictures_.clear();
-  if (surface_ == nullptr) return;
-  std::map<const Image*, std::size_t> known;
-  for (const Surface::Run& run : surface_->runs) {
+  // The next mesh of a sequence often has the pictures of the one before, which surface_ keeps till here.
+  std::map<const Image*, GlTexture> pictures;
+  for (const Surface::Run& run : surface != nullptr ? surface->runs : std::vector<Surface::Run>()) {
     const Image* const image = run.material.texture.get();
-    const auto [place, is_new] = known.emplace(image, pictures_.size());
-    run_pictures_.push_back(place->second);
-    if (is_new) pictures_.push_back(image != nullptr ? make_picture(*image) : GlTexture());
+    if (image == nullptr || pictures.contains(image)) continue;
+    const auto known = pictures_.find(image);
+    pictures.emplace(image, known != pictures_.end() ? std::move(known->second) : make_picture(*image));
   }
+  pictures_ = std::move(pictures);
+  surface_ = std::move(surface);
+  if (surface_ == nullptr) return;
   const std::span<const std::uint32_t> indices = surface_->view.indices();
   glBindBuffer(GL_ARRAY_BUFFER, surface_faces_.get());
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(),
@@ -154,7 +152,8 @@ void MeshRenderer::set_scene(const BoundingBox& bounds, UpAxis up) {
 void MeshRenderer::set_frame(std::span<const float> positions, std::span<const float> normals,
                              std::span<const float> values, cli::ColourMap map) {
   const std::size_t coordinates = 3 * std::size_t{vertex_count_};
-  has_frame_ = coordinates > 0 && positions.size() >= coordinates;
+  const bool is_nothing = vertex_count_ <= 1 && face_count_ == 0;  // as shows_nothing() has it
+  has_frame_ = !is_nothing && positions.size() >= coordinates;
   if (!has_frame_) return;
   has_normals_ = normals.size() >= coordinates;
   has_values_ = values.size() >= vertex_count_;
@@ -264,7 +263,7 @@ void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style,
   glBindTexture(GL_TEXTURE_2D, has_values_ ? colours_.get() : 0);
   glBindVertexArray(mesh_array_.get());
   if (face_count_ == 0) {
-    if (shows_surface_) use_material(program, {}, 0);
+    if (shows_surface_) use_material(program, {});
     glEnable(GL_PROGRAM_POINT_SIZE);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
     glDisable(GL_PROGRAM_POINT_SIZE);
@@ -286,25 +285,24 @@ void MeshRenderer::draw_faces(const Style& style) {
 
 void MeshRenderer::draw_runs(const MeshProgram& program, const Style& style) {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_faces_.get());
-  for (std::size_t i = 0; i < surface_->runs.size(); ++i) {
-    const Surface::Run& run = surface_->runs[i];
+  for (const Surface::Run& run : surface_->runs) {
     ShownMaterial material = run.material;
     if (run.is_plain && surface_->colours.empty()) {
       const cli::Colour& plain = style.surface;
       material.factor = {plain.red * plain.red, plain.green * plain.green, plain.blue * plain.blue, 1};
     }
-    use_material(program, material, i);
+    use_material(program, material);
     const auto* const first = reinterpret_cast<const void*>(run.faces.first_index * sizeof(std::uint32_t));
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.faces.index_count), GL_UNSIGNED_INT, first);
   }
 }
 
-void MeshRenderer::use_material(const MeshProgram& program, const ShownMaterial& material, std::size_t run) {
+void MeshRenderer::use_material(const MeshProgram& program, const ShownMaterial& material) {
   const bool textured = material.texture != nullptr && !surface_->texcoords.empty();
   glUniform4fv(program.factor, 1, material.factor.data());
   glUniform1f(program.cutoff, material.cutoff);
   glUniform1i(program.textured, textured ? 1 : 0);
-  glBindTexture(GL_TEXTURE_2D, textured ? pictures_[run_pictures_[run]].get() : 0);
+  glBindTexture(GL_TEXTURE_2D, textured ? pictures_.at(material.texture.get()).get() : 0);
 }
 
 void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport) {

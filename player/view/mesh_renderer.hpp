@@ -7,9 +7,9 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
-#include <vector>
 
 #include <tvg/types.hpp>
 
@@ -38,11 +38,9 @@ class MeshRenderer {
  public:
   MeshRenderer();
 
-  /// The mesh of the frames that follow; nothing is drawn until set_frame().
-  void set_mesh(const Mesh& mesh);
-  /// How that mesh looks where no values colour it; null for one colour. After set_mesh(), before
-  /// set_frame().
-  void set_surface(std::shared_ptr<const Surface> surface);
+  /// The mesh of the frames that follow, and how it looks where no values colour it; null for one colour.
+  /// Nothing is drawn until set_frame().
+  void set_mesh(const Mesh& mesh, std::shared_ptr<const Surface> surface = nullptr);
 
   /// What the ground grid lies under and how wide it is: the box of all that will be shown.
   void set_scene(const BoundingBox& bounds, UpAxis up);
@@ -76,9 +74,10 @@ class MeshRenderer {
   const MeshProgram& mesh_program(const Style& style);
   void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
   void draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
+  void set_surface(std::shared_ptr<const Surface> surface);
   void draw_faces(const Style& style);
   void draw_runs(const MeshProgram& program, const Style& style);
-  void use_material(const MeshProgram& program, const ShownMaterial& material, std::size_t run);
+  void use_material(const MeshProgram& program, const ShownMaterial& material);
   void use_colour_map(cli::ColourMap map);
 
   GlVertexArray mesh_array_, empty_array_;
@@ -91,9 +90,8 @@ class MeshRenderer {
   std::size_t draft_face_count_ = 0;  // 0: there are not so many faces
   std::shared_ptr<const Surface> surface_;
   SurfaceFrame surface_frame_;
-  std::vector<GlTexture> pictures_;        // of the surface's materials
-  std::vector<std::size_t> run_pictures_;  // [run], its place in pictures_
-  bool shows_surface_ = false;             // the frame is drawn by surface_
+  std::map<const Image*, GlTexture> pictures_;  // of the surface's materials
+  bool shows_surface_ = false;                  // the frame is drawn by surface_
   bool has_frame_ = false;
   bool has_normals_ = false;
   bool has_values_ = false;
