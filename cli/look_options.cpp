@@ -14,7 +14,10 @@ void add_view_options(CLI::App& command, player::LookArguments& arguments) {
   command.add_option("--camera", arguments.camera,
                      "front, back, left, right, top, bottom, iso, or azimuth,elevation[,zoom] in degrees "
                      "(default 30,15)");
-  command.add_option("--shading", arguments.shading, "smooth or flat")->capture_default_str();
+  command.add_option("--shading", arguments.shading,
+                     "smooth or flat (default: as the input's metadata say, else smooth)");
+  command.add_flag("--plain", arguments.plain,
+                   "draw in one colour, whatever colours, materials and textures the input has");
   command.add_flag("--wireframe", arguments.wireframe, "draw edges over the surface");
   command.add_flag("--grid", arguments.grid, "draw the ground");
   command.add_option("--background", arguments.background, "light (default), dark, white or #rrggbb");

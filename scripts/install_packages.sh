@@ -6,7 +6,7 @@ set -euo pipefail
 
 build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libopenmesh-dev libcli11-dev libfmt-dev
   nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev libglfw3-dev libimgui-dev libepoxy-dev libegl-dev
-  libfontconfig-dev libgl1-mesa-dri libpng-dev libcurl4-openssl-dev libcpp-httplib-dev fonts-dejavu-core libassimp-dev
+  libfontconfig-dev libgl1-mesa-dri libjpeg-dev libpng-dev libcurl4-openssl-dev libcpp-httplib-dev fonts-dejavu-core libassimp-dev
   libtinygltf-dev libmeshoptimizer-dev libzstd-dev zlib1g-dev)
 test=(ffmpeg nginx-light xvfb assimp-testmodels python3)
 bench=(libbenchmark-dev libdraco-dev)

@@ -24,6 +24,9 @@ bool LiveStream::add(StreamPart part) {
     case StreamPart::Kind::kMetadata:
       start_.metadata = std::move(part.metadata);
       break;
+    case StreamPart::Kind::kData:
+      add_data(shared(std::move(part.chunk)));
+      break;
     case StreamPart::Kind::kMesh:
       add_named(meshes_, start_.limits.meshes, part.mesh, shared(std::move(part.chunk)));
       break;
@@ -39,6 +42,14 @@ bool LiveStream::add(StreamPart part) {
   }
   changed_.notify_all();
   return true;
+}
+
+/// Those that come once viewers may have begun are left out, so that all viewers have the same.
+void LiveStream::add_data(SharedBytes chunk) {
+  if (!meshes_.empty()) return;
+  std::uint64_t bytes = chunk->size();
+  for (const SharedBytes& known : start_.data) bytes += known->size();
+  if (bytes <= kept_bytes_) start_.data.push_back(std::move(chunk));
 }
 
 void LiveStream::add_named(ChunksInForce& in_force, std::size_t most, std::uint32_t name,
@@ -211,7 +222,13 @@ LiveViewer::Step LiveViewer::step(const ByteSink& sink, std::chrono::millisecond
 }
 
 Status LiveViewer::write_next(std::chrono::milliseconds time, bool& done) {
-  if (assembler_.bytes() == 0) return assembler_.begin(start_.limits, start_.metadata);
+  if (assembler_.bytes() == 0) {
+    if (Status status = assembler_.begin(start_.limits, start_.metadata); !status.ok()) return status;
+    for (const SharedBytes& chunk : start_.data) {
+      if (Status status = assembler_.write_data(*chunk); !status.ok()) return status;
+    }
+    return {};
+  }
   LiveGop gop;
   const bool full = assembler_.gops() >= kMostGops;
   const LiveStream::Wait waited = full ? LiveStream::Wait::kEnded : stream_->next(wanted_, time, gop);
@@ -223,9 +240,10 @@ Status LiveViewer::write_next(std::chrono::milliseconds time, bool& done) {
   if (gop.mesh != mesh_ || gop.planes != planes_) {
     mesh_ = gop.mesh;
     planes_ = gop.planes;
-    if (Status status = assembler_.write_mesh(*mesh_); !status.ok()) return status;
+    constexpr auto kAgain = StreamAssembler::Again::kLeaveOut;
+    if (Status status = assembler_.write_mesh(*mesh_, kAgain); !status.ok()) return status;
     for (const SharedBytes& chunk : planes_) {
-      if (Status status = assembler_.write_plan(*chunk); !status.ok()) return status;
+      if (Status status = assembler_.write_plan(*chunk, kAgain); !status.ok()) return status;
     }
   }
   wanted_ = gop.number + 1;

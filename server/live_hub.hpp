@@ -39,9 +39,9 @@ struct LiveStatus {
   std::int64_t since = 0;  ///< when it began, in seconds since 1970
 };
 
-/// One live stream: keeps the newest GOPs, the meshes and the planes in force as far as either take no more
-/// memory than these, and nothing per viewer. A viewer comes with the number of the GOP it wants next; one
-/// that comes too late for it is given the newest instead.
+/// One live stream: keeps the newest GOPs, the meshes and the planes in force, and the data it begins with,
+/// as far as each take no more memory than these, and nothing per viewer. A viewer comes with the number of
+/// the GOP it wants next; one that comes too late for it is given the newest instead.
 class LiveStream {
  public:
   /// GOPs kept for viewers that are a little late, and the bytes they may take together; the newest is kept
@@ -58,6 +58,7 @@ class LiveStream {
   struct Start {
     StreamLimits limits;
     Metadata metadata;
+    std::vector<SharedBytes> data;  ///< chunks of those that came before the first mesh
   };
   /// What a viewer needs first; waits for it until there is a mesh. Nothing when the stream ends before or
   /// the time is up.
@@ -80,6 +81,7 @@ class LiveStream {
   /// Those that GOPs to come may name, the latest last.
   using ChunksInForce = std::deque<NamedChunk>;
 
+  void add_data(SharedBytes chunk);
   void add_named(ChunksInForce& in_force, std::size_t most, std::uint32_t name, SharedBytes chunk) const;
   void add_gop(StreamPart part);
   void keep_newest();

@@ -71,23 +71,25 @@ Status StreamWriter::write_start(const StreamLimits& limits, const Metadata& met
   return {};
 }
 
-Status StreamWriter::write_mesh_chunk(Bytes chunk) {
+Status StreamWriter::write_mesh_chunk(Bytes chunk, bool renew) {
   const std::uint32_t id = chunk_id(chunk);
   const std::uint64_t hash = hash_of(chunk);
   if (const auto* const known = meshes_.find(id)) {
-    if (known->number == hash) return {};
-    return Error{ErrorCode::kInvalidInput,
-                 "two different meshes have the same checksum, by which a stream names them",
-                 {},
-                 {},
-                 "§4.3"};
+    if (known->number != hash) {
+      return Error{ErrorCode::kInvalidInput,
+                   "two different meshes have the same checksum, by which a stream names them",
+                   {},
+                   {},
+                   "§4.3"};
+    }
+    if (!renew || meshes_.back(*known) == 1) return {};
   }
   if (!meshes_.put({.id = id, .offset = offset_, .number = hash}, limits_.meshes)) return out_of_memory();
   index_.push_back({.offset = offset_, .kind = IndexEntry::Kind::kMesh});
   return write(chunk);
 }
 
-Status StreamWriter::write_plan_chunk(Bytes chunk) {
+Status StreamWriter::write_plan_chunk(Bytes chunk, bool renew) {
   PlanHeader plan;
   const bool whole = chunk.size() >= kLeastChunkSize;
   const Bytes payload = whole ? chunk.subspan(kChunkHeaderSize, chunk.size() - kLeastChunkSize) : Bytes();
@@ -97,12 +99,14 @@ Status StreamWriter::write_plan_chunk(Bytes chunk) {
   const std::uint32_t id = chunk_id(chunk);
   const std::uint64_t hash = hash_of(chunk);
   if (const auto* const known = plans_.find(id); known != nullptr && known->offset > mesh->offset) {
-    if (known->number == hash) return {};
-    return Error{ErrorCode::kInvalidInput,
-                 "two different chunks of planes have the same checksum, by which a stream names them",
-                 {},
-                 {},
-                 "§4.9"};
+    if (known->number != hash) {
+      return Error{ErrorCode::kInvalidInput,
+                   "two different chunks of planes have the same checksum, by which a stream names them",
+                   {},
+                   {},
+                   "§4.9"};
+    }
+    if (!renew || plans_.back(*known) == 1) return {};
   }
   if (!plans_.put({.id = id, .offset = offset_, .number = hash}, limits_.plans)) return out_of_memory();
   index_.push_back({.offset = offset_, .kind = IndexEntry::Kind::kPlan});

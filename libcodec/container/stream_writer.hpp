@@ -33,11 +33,12 @@ class StreamWriter {
   Status write_start(const StreamLimits& limits, const Metadata& metadata,
                      std::span<const NamedData> data = {});
   /// Writes a mesh unless it is in force already; `chunk` is all of its chunk. kInvalidInput where another
-  /// mesh of the same name is in force.
-  Status write_mesh_chunk(Bytes chunk);
+  /// mesh of the same name is in force. With `renew` one that is in force is written all the same where
+  /// others came after it, and so stays in force as long as a new one would.
+  Status write_mesh_chunk(Bytes chunk, bool renew = false);
   /// Writes planes unless they are in force already; `chunk` is all of their chunk. kInvalidInput where
   /// others of the same name are in force, kInvalidArgument where their mesh is not.
-  Status write_plan_chunk(Bytes chunk);
+  Status write_plan_chunk(Bytes chunk, bool renew = false);
   /// `chunk` reaches at least to the end of the header packet; write() takes the rest. kInvalidArgument where
   /// the mesh or planes that it names are not in force.
   Status write_gop_chunk(Bytes chunk, std::uint32_t frame_count);

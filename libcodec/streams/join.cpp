@@ -4,8 +4,8 @@
 #include "container/stream_writer.hpp"
 #include "streams/join_input.hpp"
 
-#include <algorithm>
 #include <deque>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -40,11 +40,8 @@ class Joiner {
     for (JoinInput& input : inputs) {
       readers_.emplace_back(std::move(input), options_.limits);
       if (Status status = readers_.back().begin(); !status.ok()) return status.error();
-      std::vector<std::vector<std::uint8_t>> its_data = readers_.back().take_data();
-      if (readers_.size() > 1) continue;
-      data_ = std::move(its_data);
-      data_ids_ = readers_.back().data_ids();
     }
+    whole_input_ = readers_.size() == 1 && !options_.frames;
     if (Status status = write_start(); !status.ok()) return status.error();
     for (; !readers_.empty() && !done(); readers_.pop_front()) {
       if (Status status = add(readers_.front()); !status.ok()) return status.error();
@@ -74,8 +71,28 @@ class Joiner {
                    "§4.2"};
     }
     if (Status status = writer_.write_start(limits, metadata); !status.ok()) return status;
-    for (const std::vector<std::uint8_t>& chunk : std::exchange(data_, {})) {
-      if (Status status = writer_.write(chunk); !status.ok()) return status;
+    for (JoinInputReader& reader : readers_) {
+      if (Status status = write_data(reader); !status.ok()) return status;
+    }
+    return {};
+  }
+
+  /// Passes on the data that were read of an input since this was called last.
+  Status write_data(JoinInputReader& reader) {
+    for (const JoinInputReader::DataChunk& chunk : reader.take_data()) {
+      const bool of_frames = chunk.name == "times" || chunk.name == "skeleton/positions";
+      if (of_frames && !whole_input_) {
+        report_.notes.push_back(reader.name() + ": data \"" + chunk.name +
+                                "\" are left out: they belong to all frames of one input");
+        continue;
+      }
+      const auto [known, is_new] = data_ids_.emplace(chunk.name, chunk.id);
+      if (!is_new && known->second != chunk.id) {
+        report_.notes.push_back(reader.name() + ": its data \"" + chunk.name +
+                                "\" are left out; those of an earlier input are kept");
+      }
+      if (!is_new) continue;
+      if (Status status = writer_.write(chunk.bytes); !status.ok()) return status;
     }
     return {};
   }
@@ -112,20 +129,11 @@ class Joiner {
       report_.frames += reader.gop_frames();
       if (progress_) progress_(report_.frames, std::nullopt);
     }
-    const std::uint64_t left_out = reader.chunks_passed_over() + other_data(reader);
-    if (left_out > 0) {
-      report_.notes.push_back(
-          reader.name() + ": chunks of data or of unknown kinds are left out: " + std::to_string(left_out));
+    if (reader.chunks_passed_over() > 0) {
+      report_.notes.push_back(reader.name() + ": chunks of unknown kinds are left out: " +
+                              std::to_string(reader.chunks_passed_over()));
     }
-    return {};
-  }
-
-  /// Data of an input that the result does not have.
-  std::uint64_t other_data(const JoinInputReader& reader) const {
-    const std::vector<std::uint32_t>& ids = reader.data_ids();
-    return static_cast<std::uint64_t>(std::count_if(ids.begin(), ids.end(), [this](std::uint32_t id) {
-      return std::find(data_ids_.begin(), data_ids_.end(), id) == data_ids_.end();
-    }));
+    return write_data(reader);
   }
 
   /// Whether a GOP is to be copied; an error where a border of the frames asked for lies inside it.
@@ -160,9 +168,9 @@ class Joiner {
   ByteSink writer_sink_;  ///< appends to what the writer has written
   const EncodeProgress& progress_;
   std::deque<JoinInputReader> readers_;
-  std::vector<std::vector<std::uint8_t>> data_;  ///< chunks of the first input, until they are written
-  std::vector<std::uint32_t> data_ids_;
-  std::uint64_t position_ = 0;  ///< of the next frame over all inputs
+  bool whole_input_ = false;                       ///< the result has the frames of one input, all of them
+  std::map<std::string, std::uint32_t> data_ids_;  ///< of the data written, by name
+  std::uint64_t position_ = 0;                     ///< of the next frame over all inputs
   JoinReport report_;
 };
 

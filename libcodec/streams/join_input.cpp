@@ -64,8 +64,7 @@ void JoinInputReader::use(ChunkReader::Event event) {
       metadata_ = reader_.take_metadata();
       break;
     case ChunkReader::Event::kData:
-      data_ids_.push_back(reader_.data_id());
-      if (!begun_) data_.push_back(chunk_with(raw));
+      data_.push_back({reader_.data_id(), std::string(reader_.data().name), chunk_with(raw)});
       break;
     case ChunkReader::Event::kMesh:
     case ChunkReader::Event::kPlan:
@@ -103,7 +102,6 @@ Status JoinInputReader::begin() {
     if (*event != ChunkReader::Event::kChunk) continue;
     const ChunkKind kind = kind_of(reader_.chunk());
     if (kind == ChunkKind::kHead || kind == ChunkKind::kMetadata || kind == ChunkKind::kData) continue;
-    begun_ = true;
     return {};
   }
 }

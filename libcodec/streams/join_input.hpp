@@ -27,10 +27,14 @@ class JoinInputReader {
   const std::string& name() const { return input_.name; }
   const StreamLimits& limits() const { return reader_.head().limits; }
   const Metadata& metadata() const { return metadata_; }
-  /// Hands out the chunks of data that begin() read; none from then on.
-  std::vector<std::vector<std::uint8_t>> take_data() { return std::exchange(data_, {}); }
-  /// Payload checksums of the chunks of data that were read so far.
-  const std::vector<std::uint32_t>& data_ids() const { return data_ids_; }
+  /// Free-form data and all of their chunk.
+  struct DataChunk {
+    std::uint32_t id = 0;  ///< payload checksum
+    std::string name;
+    std::vector<std::uint8_t> bytes;
+  };
+  /// Hands out the data that were read since it was asked last.
+  std::vector<DataChunk> take_data() { return std::exchange(data_, {}); }
   /// The chunk of the mesh that the GOP names.
   Bytes mesh() const { return kept(reader_.meshes(), gop_mesh_); }
   /// The chunks of the planes that the GOP names.
@@ -55,9 +59,7 @@ class JoinInputReader {
   ChunkReader reader_;
   std::vector<std::uint8_t> piece_;
   Metadata metadata_;
-  bool begun_ = false;
-  std::vector<std::vector<std::uint8_t>> data_;
-  std::vector<std::uint32_t> data_ids_;
+  std::vector<DataChunk> data_;
   std::uint32_t gop_mesh_ = 0;
   std::vector<std::uint32_t> gop_planes_;
   std::vector<std::uint8_t> gop_start_;  ///< or what was read last of another chunk

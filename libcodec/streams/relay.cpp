@@ -64,6 +64,10 @@ class StreamSplitter::State {
         part_.kind = StreamPart::Kind::kMetadata;
         part_.metadata = reader_.take_metadata();
         return true;
+      case Event::kData:
+        part_.kind = StreamPart::Kind::kData;
+        append();
+        return true;
       case Event::kMesh:
         part_.kind = StreamPart::Kind::kMesh;
         part_.mesh = reader_.mesh_id();
@@ -99,8 +103,6 @@ class StreamSplitter::State {
         return std::move(reader_.problem().error);
       case Event::kFailed:
         return reader_.error();
-      case Event::kData:  // who is fed by a relay comes and goes: data are for those who have the whole
-                          // stream
       case Event::kNeedBytes:
       case Event::kEnd:
         break;
@@ -119,7 +121,9 @@ class StreamSplitter::State {
     }
     const ChunkKind kind = kind_of(header);
     part_ = StreamPart();
-    if (kind == ChunkKind::kGop || kind == ChunkKind::kMesh || kind == ChunkKind::kPlan) append();
+    if (kind == ChunkKind::kGop || kind == ChunkKind::kMesh || kind == ChunkKind::kPlan ||
+        kind == ChunkKind::kData)
+      append();
     return false;
   }
 
@@ -183,12 +187,16 @@ Status StreamAssembler::begin(const StreamLimits& limits, const Metadata& metada
   return state_->writer.write_start(limits, metadata);
 }
 
-Status StreamAssembler::write_mesh(std::span<const std::uint8_t> chunk) {
-  return state_->writer.write_mesh_chunk(chunk);
+Status StreamAssembler::write_data(std::span<const std::uint8_t> chunk) {
+  return state_->writer.write(chunk);
 }
 
-Status StreamAssembler::write_plan(std::span<const std::uint8_t> chunk) {
-  return state_->writer.write_plan_chunk(chunk);
+Status StreamAssembler::write_mesh(std::span<const std::uint8_t> chunk, Again again) {
+  return state_->writer.write_mesh_chunk(chunk, again == Again::kWrite);
+}
+
+Status StreamAssembler::write_plan(std::span<const std::uint8_t> chunk, Again again) {
+  return state_->writer.write_plan_chunk(chunk, again == Again::kWrite);
 }
 
 Status StreamAssembler::write_gop(std::span<const std::uint8_t> chunk, std::uint32_t frame_count) {

@@ -3,6 +3,7 @@
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
 
 namespace tvg::player {
@@ -13,6 +14,15 @@ const std::vector<float>& joints_at(const JointTracks& tracks, std::uint64_t fra
   throw cli::ToolError(
       cli::ExitStatus::kInvalidInput,
       fmt::format("the skeleton ends after {} frames, and {} goes on", tracks.frames.size(), stream));
+}
+
+std::string folder_of(const std::vector<std::string>& inputs) {
+  namespace fs = std::filesystem;
+  if (inputs.empty() || inputs.front() == "-") return {};
+  std::error_code ignored;
+  const fs::path path = inputs.front();
+  if (fs::is_directory(path, ignored)) return path.string();
+  return path.has_parent_path() ? path.parent_path().string() : ".";
 }
 
 bool is_stream(const std::vector<std::string>& inputs) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "player/view/surface.hpp"
 #include "tool/source_opener.hpp"
 
 #include <cstdint>
@@ -18,6 +19,7 @@ struct ShownFrame {
   std::uint64_t number = 0;                                ///< in its sequence, counted from 0
   std::uint64_t gop = 0;                                   ///< equal for frames that are coded together
   std::shared_ptr<const Mesh> mesh;                        ///< the same object as long as the mesh stays
+  std::shared_ptr<const Surface> surface = {};             ///< how that mesh looks; null where nobody says
   FramePositions positions;                                ///< [vertex][xyz]
   std::shared_ptr<const std::vector<std::uint8_t>> flags;  ///< [vertex]: 1 important; null without a GOP's
   std::vector<float> joints;                               ///< [joint][xyz]; empty without a skeleton
@@ -43,6 +45,8 @@ class ShownFrames {
   virtual std::string note() const { return {}; }
   /// Valid as soon as the frames are open.
   virtual Metadata metadata() const = 0;
+  /// When frames are, in seconds, where they are not evenly spaced; else empty. Valid as the metadata are.
+  virtual std::vector<double> times() const { return {}; }
 };
 
 struct ShownFramesSpec {
@@ -54,7 +58,11 @@ struct ShownFramesSpec {
   cli::SourceOpener open_source = {};  ///< opens inputs that are no .tvg
   std::uint32_t lod = 0;               ///< of a .tvg, as Decoder::use_lod() has it
   std::shared_ptr<const JointTracks> joints = {};  ///< of a .tvg, frames by number; null for none
+  bool surfaces = false;                           ///< frames come with their surfaces
 };
+
+/// The folder of the files that inputs name, where what they refer to lies; empty for standard input.
+std::string folder_of(const std::vector<std::string>& inputs);
 
 /// Where the joints are in a frame of a stream: [joint][xyz]. Throws ToolError (kInvalidInput) that names the
 /// stream where the tracks end before.

@@ -1,4 +1,5 @@
 #include "player/frames/shown_frames.hpp"
+#include "tool/frame_times.hpp"
 #include "tool/option_values.hpp"
 #include "tool/tool_error.hpp"
 
@@ -15,7 +16,12 @@ class SourceFrames final : public ShownFrames {
   explicit SourceFrames(const ShownFramesSpec& spec) {
     const bool cut = spec.frames && !spec.whole_gops;
     source_ = spec.open_source(spec.inputs, cut ? spec.frames : std::nullopt);
-    mesh_ = std::make_shared<const Mesh>(source_->mesh());
+    has_surfaces_ = spec.surfaces;
+    if (has_surfaces_) {
+      for (const NamedData& data : source_->data()) materials_.take(data);
+      materials_.make(folder_of(spec.inputs));
+    }
+    take_mesh();
     if (cut) begin_ = spec.frames->first;
     number_ = begin_;
     if (!spec.frames || cut) return;
@@ -26,14 +32,11 @@ class SourceFrames final : public ShownFrames {
   }
 
   bool next(ShownFrame& frame) override {
-    frame.positions.resize(3 * std::size_t{mesh_->vertex_count});
     do {
-      if (number_ > last_) return false;
-      const Result<bool> read = source_->read_frame(frame.positions);
-      if (!read) throw cli::tool_error(read.error());
-      if (!*read) return false;
+      if (number_ > last_ || !read(frame.positions)) return false;
     } while (number_++ < first_);
     frame.mesh = mesh_;
+    frame.surface = surface_;
     frame.number = number_ - 1;
     frame.gop = frame.number / kGopFrames;
     frame.flags.reset();
@@ -46,6 +49,7 @@ class SourceFrames final : public ShownFrames {
   bool rewind() override {
     if (!source_->rewind()) return false;
     number_ = begin_;
+    if (source_->mesh_may_change()) take_mesh();
     return true;
   }
 
@@ -55,12 +59,41 @@ class SourceFrames final : public ShownFrames {
   }
   const Skeleton& skeleton() const override { return source_->skeleton(); }
   Metadata metadata() const override { return source_->metadata(); }
+  std::vector<double> times() const override {
+    std::vector<double> times;
+    for (const NamedData& data : source_->data()) {
+      if (data.name == "times") times = cli::times_from(data.bytes);
+    }
+    // A source that was cut has the times of what is left of it; what is before them is not shown.
+    for (std::uint64_t i = 0; i < begin_ && !times.empty(); ++i)
+      times.insert(times.begin(), times.front() - 1);
+    return times;
+  }
+  std::string note() const override { return materials_.note(); }
 
  private:
+  void take_mesh() {
+    mesh_ = std::make_shared<const Mesh>(source_->mesh());
+    if (has_surfaces_) surface_ = make_surface(*mesh_, source_->properties(), materials_);
+  }
+
+  /// Reads a frame, of the next mesh where that begins here. False at the end.
+  bool read(FramePositions& positions) {
+    for (;;) {
+      const Result<SourceStep> step = read_step(*source_, positions);
+      if (!step) throw cli::tool_error(step.error());
+      if (*step != SourceStep::kMesh) return *step == SourceStep::kFrame;
+      take_mesh();
+    }
+  }
+
   inline static const std::uint64_t kGopFrames = EncodeOptions{}.gop_frames;
 
   std::unique_ptr<FrameSource> source_;
   std::shared_ptr<const Mesh> mesh_;
+  bool has_surfaces_ = false;
+  ShownMaterials materials_;
+  std::shared_ptr<const Surface> surface_;
   std::uint64_t begin_ = 0;   // number of the source's first frame
   std::uint64_t number_ = 0;  // of the source's next frame
   std::uint64_t first_ = 0;   // frames before it are passed over

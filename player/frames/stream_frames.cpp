@@ -1,11 +1,14 @@
 #include "player/frames/shown_frames.hpp"
 #include "tool/concealment.hpp"
+#include "tool/frame_times.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
 #include <utility>
+
+#include <tvg/data.hpp>
 
 namespace tvg::player {
 
@@ -46,8 +49,12 @@ class StreamFrames final : public ShownFrames {
   std::optional<std::uint64_t> total() const override { return total_; }
   bool keeps_vertex_order() const override { return reader_->decoder().mesh_info().keeps_vertex_order; }
   const Skeleton& skeleton() const override { return spec_.joints ? spec_.joints->skeleton : none_; }
-  std::string note() const override { return reader_->lod_note(); }
+  std::string note() const override {
+    const std::string lod = reader_->lod_note(), textures = materials_.note();
+    return lod.empty() || textures.empty() ? lod + textures : lod + "; " + textures;
+  }
   Metadata metadata() const override { return reader_->decoder().metadata(); }
+  std::vector<double> times() const override { return times_; }
 
  private:
   void open() {
@@ -56,6 +63,8 @@ class StreamFrames final : public ShownFrames {
     loaded_ = ended_ = false;
     held_ = {};
     mesh_.reset();
+    surface_.reset();
+    materials_ = {};
     number_ = lost_end_ = gop_ = 0;
     const auto index = reader_->read_index();
     if (index) {
@@ -91,7 +100,10 @@ class StreamFrames final : public ShownFrames {
     const Decoder& decoder = reader_->decoder();
     switch (event) {
       case Decoder::Event::kMesh:
-        mesh_ = std::make_shared<const Mesh>(decoder.mesh());
+        take_mesh(decoder);
+        break;
+      case Decoder::Event::kData:
+        take_data(decoder.data());
         break;
       case Decoder::Event::kGop:
         begin_gop(decoder);
@@ -115,6 +127,25 @@ class StreamFrames final : public ShownFrames {
     }
   }
 
+  void take_mesh(const Decoder& decoder) {
+    if (spec_.surfaces && !mesh_) materials_.make(folder_of(spec_.inputs));
+    mesh_ = std::make_shared<const Mesh>(decoder.mesh());
+    if (spec_.surfaces) surface_ = make_surface(*mesh_, decoder.properties(), materials_);
+  }
+
+  void take_data(const CodedData& coded) {
+    const bool is_times = coded.name == "times";
+    const bool is_wanted = is_times || (spec_.surfaces && !mesh_ && ShownMaterials::wants(coded.name));
+    if (!is_wanted) return;
+    Result<NamedData> data = unpack_data(coded);
+    if (!data) return;
+    if (is_times) {
+      times_ = cli::times_from(data->bytes);
+    } else {
+      materials_.take(*std::move(data));
+    }
+  }
+
   void begin_gop(const Decoder& decoder) {
     const GopInfo& gop = decoder.gop();
     ++gop_;
@@ -131,6 +162,7 @@ class StreamFrames final : public ShownFrames {
     loaded_frame_.number = decoder.frame_number();
     loaded_frame_.gop = gop_;
     loaded_frame_.mesh = mesh_;
+    loaded_frame_.surface = surface_;
     loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
     decoder.copy_positions(loaded_frame_.positions.data());
     loaded_frame_.flags = flags_;
@@ -151,6 +183,9 @@ class StreamFrames final : public ShownFrames {
   cli::Concealment concealment_;
   std::unique_ptr<cli::StreamReader> reader_;
   std::shared_ptr<const Mesh> mesh_;
+  ShownMaterials materials_;
+  std::vector<double> times_;
+  std::shared_ptr<const Surface> surface_;
   std::optional<std::uint64_t> total_;
   std::shared_ptr<const std::vector<std::uint8_t>> flags_;  // of the present GOP
   ShownFrame loaded_frame_;                                 // the newest that the decoder gave

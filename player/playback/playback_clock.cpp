@@ -1,12 +1,19 @@
 #include "player/playback/playback_clock.hpp"
 
+#include "tool/frame_times.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tvg::player {
 
 double PlaybackClock::position(double now) const {
-  return moving() ? anchor_position_ + std::max(0.0, now - anchor_time_) * rate_ * speed_ : anchor_position_;
+  if (!moving()) return anchor_position_;
+  const double passed = std::max(0.0, now - anchor_time_) * speed_;
+  if (times_.empty()) return anchor_position_ + passed * rate_;
+  const cli::FrameTimeline line(times_, rate_);
+  return line.frame_at(line.time_at(anchor_position_) + passed);
 }
 
 void PlaybackClock::anchor(double position, double now) {
@@ -21,6 +28,11 @@ std::uint64_t PlaybackClock::clamped(std::uint64_t frame) const {
 void PlaybackClock::set_rate(double rate, double now) {
   anchor(position(now), now);
   rate_ = rate;
+}
+
+void PlaybackClock::set_times(std::vector<double> times, double now) {
+  anchor(position(now), now);
+  times_ = std::move(times);
 }
 
 void PlaybackClock::set_speed(double speed, double now) {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tvg::player {
 
@@ -22,6 +23,9 @@ class PlaybackClock {
   bool looping() const { return looping_; }
   /// Frames per second of the stream.
   void set_rate(double rate, double now);
+  /// When frames are, in seconds, where they are not evenly spaced: times that rise, of the first frames;
+  /// those behind them follow at the rate.
+  void set_times(std::vector<double> times, double now);
   /// Times the stream's rate; clamped to kSlowest..kFastest.
   void set_speed(double speed, double now);
   /// The frames played: `first` to `last`, where the latter is known. When looping, `first` follows `last`;
@@ -64,6 +68,7 @@ class PlaybackClock {
   std::uint64_t clamped(std::uint64_t frame) const;
 
   double rate_ = kDefaultRate;
+  std::vector<double> times_;
   double speed_ = 1;
   bool playing_ = false;
   bool looping_ = false;

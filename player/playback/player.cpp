@@ -69,11 +69,13 @@ void Player::follow_stream() {
 /// With the first frame the metadata are there.
 void Player::adopt_rate(double now) {
   if (frame_) return;
-  const Metadata metadata = loader_.snapshot().metadata;
+  const LoaderSnapshot stream = loader_.snapshot();
+  const Metadata& metadata = stream.metadata;
   const auto fps = metadata.find("fps");
   const std::optional<double> rate =
       fps == metadata.end() ? std::nullopt : cli::parse_frame_rate(fps->second);
   clock_.set_rate(forced_rate_.value_or(rate.value_or(PlaybackClock::kDefaultRate)), now);
+  if (!forced_rate_) clock_.set_times(stream.times, now);
 }
 
 bool Player::ready_to_go(const StreamLoader::Supply& supply, double now) const {

@@ -1,4 +1,6 @@
 #pragma once
+#include "player/view/surface.hpp"
+
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -20,6 +22,7 @@ struct PlayerGop {
 struct PlayerFrame {
   std::uint64_t number = 0;  ///< position in the stream
   std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const Surface> surface;  ///< how that mesh looks; null where the stream does not say
   std::shared_ptr<const PlayerGop> gop;
   std::vector<float> positions;  ///< [vertex][xyz]
   std::vector<float> normals;    ///< [vertex][xyz], unit length

@@ -1,4 +1,5 @@
 #include "player/playback/stream_loader.hpp"
+#include "tool/frame_times.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -6,6 +7,7 @@
 #include <new>
 #include <utility>
 
+#include <tvg/data.hpp>
 #include <tvg/normals.hpp>
 
 // The decoding thread of the loader.
@@ -188,8 +190,10 @@ void StreamLoader::advance() {
     case Decoder::Event::kError:
       fail(decoder_->error());
       break;
-    case Decoder::Event::kChunk:
     case Decoder::Event::kData:
+      take_data();
+      break;
+    case Decoder::Event::kChunk:
       break;
   }
 }
@@ -231,7 +235,22 @@ void StreamLoader::begin_live_anew() {
   go_to(base_);
 }
 
+void StreamLoader::take_data() {
+  if (decoder_->data().name == "times") {
+    const Result<NamedData> data = unpack_data(decoder_->data());
+    const std::lock_guard lock(mutex_);
+    if (data) state_.times = cli::times_from(data->bytes);
+    return;
+  }
+  if (!options_.surfaces || has_materials_ || !ShownMaterials::wants(decoder_->data().name)) return;
+  if (Result<NamedData> data = unpack_data(decoder_->data())) materials_.take(*std::move(data));
+}
+
 void StreamLoader::begin_mesh() {
+  if (options_.surfaces) {
+    if (!std::exchange(has_materials_, true)) materials_.make(options_.folder);
+    surface_ = make_surface(decoder_->mesh(), decoder_->properties(), materials_);
+  }
   const std::lock_guard lock(mutex_);
   if (state_.mesh && *state_.mesh == decoder_->mesh()) return;
   state_.mesh = std::make_shared<const Mesh>(decoder_->mesh());
@@ -287,6 +306,7 @@ void StreamLoader::fill_frame(PlayerFrame& frame, double decode_ms) {
   {
     const std::lock_guard lock(mutex_);
     frame.mesh = state_.mesh;
+    frame.surface = surface_;
     decorator = decorator_;
   }
   const std::size_t count = 3 * std::size_t{frame.mesh->vertex_count};

@@ -24,6 +24,8 @@ struct LoaderOptions {
   std::uint64_t ring_bytes = std::uint64_t{512}
                              << 20;  ///< most bytes of frames held, but never below 2 frames
   bool measure_bits = false;         ///< fill PlayerFrame::bits, at some cost
+  bool surfaces = true;              ///< fill PlayerFrame::surface
+  std::string folder;                ///< where pictures lie that the stream names; empty for nowhere
   std::uint32_t lod = 0;             ///< which coarser mesh is decoded (Decoder::use_lod()); 0 the whole
 };
 
@@ -49,6 +51,7 @@ struct LoaderSnapshot {
   std::optional<std::uint64_t> frame_count;  ///< of the whole stream, once known
   std::uint64_t known_frames = 0;            ///< frames up to the end of what was met so far
   Metadata metadata;
+  std::vector<double> times;         ///< of frames, in seconds, where they are uneven (PlaybackClock)
   std::shared_ptr<const Mesh> mesh;  ///< null before the first one; that of the frame decoded last
   GopMarks gops;                     ///< never null; all of them once the index is in
   bool has_index = false;
@@ -123,6 +126,7 @@ class StreamLoader {
   void advance();
   void feed();
   void begin_live_anew();
+  void take_data();
   void begin_mesh();
   void begin_gop();
   void take_frame(double decode_ms);
@@ -173,6 +177,9 @@ class StreamLoader {
   int openings_in_vain_ = 0;      ///< of a live stream, since it brought a frame
   bool pushed_in_round_ = false;  ///< a loop with no frame at all must end
   std::shared_ptr<const PlayerGop> gop_;
+  ShownMaterials materials_;
+  bool has_materials_ = false;  ///< they are made: a mesh has come
+  std::shared_ptr<const Surface> surface_;
   std::shared_ptr<FrameDecorator> used_decorator_;
 
   std::thread index_thread_;

@@ -20,12 +20,19 @@ std::string scale_note(const OverlayColours& colours, const RenderOptions& optio
 OverlayFrames::OverlayFrames(const RenderOptions& options) : options_(options) {
   const bool cost = options.overlay == Overlay::kCost;
   frames_ = open_frames({options.inputs, options.frames, options.overlay == Overlay::kImportance, cost,
-                         options.conceal, options.open_inputs, options.lod, options.measure.joints});
+                         options.conceal, options.open_inputs, options.lod, options.measure.joints,
+                         !options.plain});
   if (!options.reference.empty()) {
-    references_ =
-        std::make_shared<ReferenceFrames>(ShownFramesSpec{options.reference, options.frames, false, false,
-                                                          options.conceal, options.open_source},
-                                          options.inputs.front());
+    references_ = std::make_shared<ReferenceFrames>(ShownFramesSpec{options.reference,
+                                                                    options.frames,
+                                                                    false,
+                                                                    false,
+                                                                    options.conceal,
+                                                                    options.open_source,
+                                                                    0,
+                                                                    {},
+                                                                    !options.plain},
+                                                    options.inputs.front());
   }
   colours_ = make_overlay_colours({options.overlay, options.largest, references_, options.measure});
   if (cost) frames_ = with_whole_gops(std::move(frames_), options.frames, *colours_);

@@ -32,6 +32,7 @@ class OverlayFrames {
   const std::optional<Legend>& legend() const { return legend_; }
 
   Metadata metadata() const { return frames_->metadata(); }
+  std::vector<double> times() const { return frames_->times(); }
   std::string note() const { return frames_->note(); }
   /// Number of frames that next() gives, where it is known before the end.
   std::optional<std::uint64_t> wanted() const;

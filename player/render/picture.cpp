@@ -40,7 +40,7 @@ void PicturePainter::draw(const ShownFrame& frame, Which which, cli::ColourMap m
   Subject& subject = which == Which::kShown ? shown_ : reference_;
   if (subject.mesh != frame.mesh) {
     subject.mesh = frame.mesh;
-    subject.renderer.set_mesh(*frame.mesh);
+    subject.renderer.set_mesh(*frame.mesh, frame.surface);
     subject.normals.assign(3 * std::size_t{frame.mesh->vertex_count}, 0.0F);
   }
   if (style_.shading == Shading::kSmooth) {

@@ -30,6 +30,8 @@ class PicturePainter {
   /// Size in pixels. With `labels`, text is drawn. Throws ToolError where this machine cannot draw.
   PicturePainter(int width, int height, const Style& style, bool labels);
 
+  /// Smooth or flat, from the next picture on.
+  void set_shading(Shading shading) { style_.shading = shading; }
   /// What all pictures show, and from where.
   void set_scene(const BoundingBox& bounds, UpAxis up, const OrbitCamera& camera);
 

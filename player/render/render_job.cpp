@@ -4,10 +4,12 @@
 #include "player/render/picture.hpp"
 #include "player/render/picture_output.hpp"
 #include "player/render/sheet.hpp"
+#include "tool/frame_times.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
 #include "tool/tool_error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -61,8 +63,12 @@ class RenderJob {
   }
 
   void survey_frame() {
-    bounds_.extend(frames_.frame().positions);
-    if (options_.side_by_side) bounds_.extend(frames_.reference().positions);
+    extend_bounds(frames_.frame());
+    if (options_.side_by_side) extend_bounds(frames_.reference());
+  }
+
+  void extend_bounds(const ShownFrame& frame) {
+    if (!shows_nothing(*frame.mesh)) bounds_.extend(frame.positions);
   }
 
   /// Once the camera knows what it looks at: after the survey, or at the first frame of a pipe.
@@ -77,18 +83,22 @@ class RenderJob {
     const UpAxis up_axis = up_axis_of(frames_.metadata());
     camera.fit_closely(bounds_, up_axis, static_cast<double>(cell_width) / cell_height);
     painter.set_scene(bounds_, up_axis, camera);
+    if (!options_.shading_is_given) painter.set_shading(shading_of(frames_.metadata()));
   }
 
   void draw_frames(PicturePainter& painter) {
     const std::unique_ptr<PictureOutput> output = open_output(options_, frame_rate());
     const std::vector<Cell> cells =
         sheet_cells(options_.width, options_.height, options_.side_by_side ? 2 : 1, 1);
+    const std::vector<double> times = frames_.times();
     while (frames_.next()) {
       if (drawn_ == 0) prepare(painter, cells[0].width, cells[0].height);
       painter.begin();
       draw_frame(painter, cells, {});
       if (frames_.legend()) painter.legend(*frames_.legend(), options_.side_by_side);
-      output->add(painter.finish(), frames_.frame().number);
+      const Image& image = painter.finish();
+      for (std::uint64_t i = pictures_of(frames_.frame().number, times); i > 0; --i)
+        output->add(image, frames_.frame().number);
       bar_.update(++drawn_, count_);
     }
     if (drawn_ == 0) throw no_frames();
@@ -134,6 +144,19 @@ class RenderJob {
     } else if (!name.empty()) {
       painter.label(cells.back(), name);
     }
+  }
+
+  /// How many pictures of the output show the frame: of a clip whose frames are uneven in time so many as
+  /// come until the next one, perhaps none.
+  std::uint64_t pictures_of(std::uint64_t frame, const std::vector<double>& times) const {
+    if (options_.kind != RenderOptions::Output::kVideo || times.empty()) return 1;
+    constexpr double kMostSeconds = 3600;  // of one frame: times may be anything
+    const double rate = *cli::parse_frame_rate(frame_rate());
+    const cli::FrameTimeline line(times, rate);
+    const auto place = static_cast<double>(frame);
+    const double begin = line.time_at(place);
+    const double end = std::min(line.time_at(place + 1), begin + kMostSeconds);
+    return static_cast<std::uint64_t>(std::max(0.0, std::round(end * rate) - std::round(begin * rate)));
   }
 
   std::string frame_rate() const {

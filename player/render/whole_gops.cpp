@@ -27,6 +27,7 @@ class WholeGops final : public ShownFrames {
       frame.number = number;
       frame.gop = gop_;
       frame.mesh = mesh_;
+      frame.surface = surface_;
       return true;
     }
   }
@@ -42,6 +43,8 @@ class WholeGops final : public ShownFrames {
   bool keeps_vertex_order() const override { return gops_->keeps_vertex_order(); }
   const Skeleton& skeleton() const override { return gops_->skeleton(); }
   Metadata metadata() const override { return gops_->metadata(); }
+  std::vector<double> times() const override { return gops_->times(); }
+  std::string note() const override { return gops_->note(); }
 
  private:
   void forget_gop() {
@@ -61,6 +64,7 @@ class WholeGops final : public ShownFrames {
     first_ = ahead_->number;
     gop_ = ahead_->gop;
     mesh_ = ahead_->mesh;
+    surface_ = ahead_->surface;
     std::uint64_t bytes = 0;
     while (ahead_->mesh == mesh_ && ahead_->gop == gop_) {
       bytes += ahead_->positions.size() * (sizeof(float) + sizeof(double));
@@ -90,6 +94,7 @@ class WholeGops final : public ShownFrames {
   std::vector<FramePositions> positions_;   // of the GOP, [frame][vertex][xyz]
   std::vector<std::vector<float>> joints_;  // [frame][joint][xyz]
   std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<const Surface> surface_;
   std::uint64_t first_ = 0;
   std::uint64_t gop_ = 0;
   std::size_t given_ = 0;

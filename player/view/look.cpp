@@ -67,6 +67,11 @@ const char* overlay_name(Overlay overlay) {
   return "";
 }
 
+Shading shading_of(const Metadata& metadata) {
+  const auto shading = metadata.find("shading");
+  return shading != metadata.end() && shading->second == "flat" ? Shading::kFlat : Shading::kSmooth;
+}
+
 Look parse_look(const LookArguments& arguments) {
   Look look;
   const auto size = cli::parse_count_pair(arguments.size, kMostPixels);
@@ -82,10 +87,12 @@ Look parse_look(const LookArguments& arguments) {
   if (look.overlay == Overlay::kError && look.reference.empty()) {
     cli::fail_option("--overlay", "error", "name the reference with --ref");
   }
-  if (arguments.shading != "smooth" && arguments.shading != "flat") {
+  if (!arguments.shading.empty() && arguments.shading != "smooth" && arguments.shading != "flat") {
     cli::fail_option("--shading", arguments.shading, "write smooth or flat");
   }
   look.style.shading = arguments.shading == "flat" ? Shading::kFlat : Shading::kSmooth;
+  look.shading_is_given = !arguments.shading.empty();
+  look.plain = arguments.plain;
   look.style.wireframe = arguments.wireframe;
   look.style.grid = arguments.grid;
   set_background(look.style, arguments.background);

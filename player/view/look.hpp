@@ -21,10 +21,11 @@ struct LookArguments {
   std::string camera;
   std::string overlay = "none";
   std::vector<std::string> reference;
-  std::string shading = "smooth";
+  std::string shading;
   std::string background;
   bool wireframe = false;
   bool grid = false;
+  bool plain = false;
 };
 
 /// What they mean.
@@ -36,7 +37,12 @@ struct Look {
   cli::SourceOpener open_source;       ///< opens a reference that is no .tvg
   std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none
   Style style;
+  bool plain = false;             ///< one colour, whatever the input says of its surface
+  bool shading_is_given = false;  ///< else that of the input's metadata goes
 };
+
+/// The shading that a sequence's metadata ask for (`shading`), else smooth.
+Shading shading_of(const Metadata& metadata);
 
 /// Throws ToolError (kUsage) that shows what would be right.
 Look parse_look(const LookArguments& arguments);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace tvg::player {
 
@@ -14,6 +15,8 @@ namespace {
 constexpr GLuint kPositionAttribute = 0;
 constexpr GLuint kNormalAttribute = 1;
 constexpr GLuint kValueAttribute = 2;
+constexpr GLuint kColourAttribute = 3;
+constexpr GLuint kTexcoordAttribute = 4;
 
 /// Below this, faces are larger than pixels, and a software renderer keeps up.
 constexpr std::size_t kManyFaces = 60000;
@@ -42,6 +45,30 @@ void set_attribute(GLuint attribute, bool present) {
   }
 }
 
+/// What does not change with frames. Where it is absent, vertices are white and at the picture's corner.
+void send_attribute(GLuint attribute, const GlBuffer& buffer, std::span<const float> values) {
+  if (values.empty()) {
+    glDisableVertexAttribArray(attribute);
+    glVertexAttrib4f(attribute, 1, 1, 1, 1);
+    return;
+  }
+  glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STATIC_DRAW);
+  glEnableVertexAttribArray(attribute);
+}
+
+GlTexture make_picture(const Image& image) {
+  GlTexture texture = make_texture();
+  glBindTexture(GL_TEXTURE_2D, texture.get());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.pixels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glBindTexture(GL_TEXTURE_2D, 0);
+  return texture;
+}
+
 void set_colour(GLint place, const cli::Colour& colour) {
   glUniform3f(place, colour.red, colour.green, colour.blue);
 }
@@ -63,6 +90,9 @@ MeshRenderer::MeshRenderer()
       values_(make_buffer()),
       faces_(make_buffer()),
       draft_faces_(make_buffer()),
+      surface_faces_(make_buffer()),
+      vertex_colours_(make_buffer()),
+      texcoords_(make_buffer()),
       colours_(make_texture()),
       background_(make_program(background_shader())),
       grid_(make_program(grid_shader())) {
@@ -74,17 +104,44 @@ MeshRenderer::MeshRenderer()
   glVertexAttribPointer(kNormalAttribute, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
   glBindBuffer(GL_ARRAY_BUFFER, values_.get());
   glVertexAttribPointer(kValueAttribute, 1, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_colours_.get());
+  glVertexAttribPointer(kColourAttribute, 4, GL_FLOAT, GL_FALSE, 0, nullptr);
+  glBindBuffer(GL_ARRAY_BUFFER, texcoords_.get());
+  glVertexAttribPointer(kTexcoordAttribute, 2, GL_FLOAT, GL_FALSE, 0, nullptr);
   glBindVertexArray(0);
 }
 
-void MeshRenderer::set_mesh(const Mesh& mesh) {
+void MeshRenderer::set_mesh(const Mesh& mesh, std::shared_ptr<const Surface> surface) {
   vertex_count_ = mesh.vertex_count;
   face_count_ = mesh.faces.size();
   has_frame_ = false;
+  set_surface(std::move(surface));
   send_faces(faces_, mesh.faces);
   const std::vector<Face> fewer = face_count_ < kManyFaces ? std::vector<Face>() : draft_faces(mesh);
   draft_face_count_ = fewer.size();
   send_faces(draft_faces_, fewer);
+}
+
+void MeshRenderer::set_surface(std::shared_ptr<const Surface> surface) {
+  // The next mesh of a sequence often has the pictures of the one before, which surface_ keeps till here.
+  std::map<const Image*, GlTexture> pictures;
+  for (const Surface::Run& run : surface != nullptr ? surface->runs : std::vector<Surface::Run>()) {
+    const Image* const image = run.material.texture.get();
+    if (image == nullptr || pictures.contains(image)) continue;
+    const auto known = pictures_.find(image);
+    pictures.emplace(image, known != pictures_.end() ? std::move(known->second) : make_picture(*image));
+  }
+  pictures_ = std::move(pictures);
+  surface_ = std::move(surface);
+  if (surface_ == nullptr) return;
+  const std::span<const std::uint32_t> indices = surface_->view.indices();
+  glBindBuffer(GL_ARRAY_BUFFER, surface_faces_.get());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(indices.size_bytes()), indices.data(),
+               GL_STATIC_DRAW);
+  glBindVertexArray(mesh_array_.get());
+  send_attribute(kColourAttribute, vertex_colours_, surface_->colours);
+  send_attribute(kTexcoordAttribute, texcoords_, surface_->texcoords);
+  glBindVertexArray(0);
 }
 
 void MeshRenderer::set_scene(const BoundingBox& bounds, UpAxis up) {
@@ -95,13 +152,23 @@ void MeshRenderer::set_scene(const BoundingBox& bounds, UpAxis up) {
 void MeshRenderer::set_frame(std::span<const float> positions, std::span<const float> normals,
                              std::span<const float> values, cli::ColourMap map) {
   const std::size_t coordinates = 3 * std::size_t{vertex_count_};
-  has_frame_ = coordinates > 0 && positions.size() >= coordinates;
+  const bool is_nothing = vertex_count_ <= 1 && face_count_ == 0;  // as shows_nothing() has it
+  has_frame_ = !is_nothing && positions.size() >= coordinates;
   if (!has_frame_) return;
   has_normals_ = normals.size() >= coordinates;
   has_values_ = values.size() >= vertex_count_;
+  shows_surface_ = surface_ != nullptr && !has_values_;
+  if (shows_surface_) {
+    surface_frame_.set(*surface_, positions);
+    positions = surface_frame_.positions();
+    if (has_normals_) normals = surface_frame_.normals();
+  } else {
+    positions = positions.first(coordinates);
+    if (has_normals_) normals = normals.first(coordinates);
+  }
   glBindVertexArray(mesh_array_.get());
-  stream(positions_, positions.first(coordinates));
-  if (has_normals_) stream(normals_, normals.first(coordinates));
+  stream(positions_, positions);
+  if (has_normals_) stream(normals_, normals);
   if (has_values_) stream(values_, values.first(vertex_count_));
   set_attribute(kNormalAttribute, has_normals_);
   set_attribute(kValueAttribute, has_values_);
@@ -130,8 +197,10 @@ const MeshRenderer::MeshProgram& MeshRenderer::mesh_program(const Style& style) 
   features.wireframe = style.wireframe && !points;
   features.values = has_values_;
   features.points = points;
-  MeshProgram& program = programs_[(features.flat ? 1U : 0U) | (features.wireframe ? 2U : 0U) |
-                                   (features.values ? 4U : 0U) | (features.points ? 8U : 0U)];
+  features.surface = shows_surface_;
+  MeshProgram& program =
+      programs_[(features.flat ? 1U : 0U) | (features.wireframe ? 2U : 0U) | (features.values ? 4U : 0U) |
+                (features.points ? 8U : 0U) | (features.surface ? 16U : 0U)];
   if (!program.program) {
     program.program = make_program(mesh_shader(features));
     const GLuint name = program.program.get();
@@ -141,6 +210,9 @@ const MeshRenderer::MeshProgram& MeshRenderer::mesh_program(const Style& style) 
     program.surface = glGetUniformLocation(name, "surface");
     program.half_viewport = glGetUniformLocation(name, "half_viewport");
     program.point_size = glGetUniformLocation(name, "point_size");
+    program.factor = glGetUniformLocation(name, "factor");
+    program.cutoff = glGetUniformLocation(name, "cutoff");
+    program.textured = glGetUniformLocation(name, "textured");
   }
   return program;
 }
@@ -191,17 +263,46 @@ void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style,
   glBindTexture(GL_TEXTURE_2D, has_values_ ? colours_.get() : 0);
   glBindVertexArray(mesh_array_.get());
   if (face_count_ == 0) {
+    if (shows_surface_) use_material(program, {});
     glEnable(GL_PROGRAM_POINT_SIZE);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(vertex_count_));
     glDisable(GL_PROGRAM_POINT_SIZE);
+  } else if (shows_surface_) {
+    draw_runs(program, style);
   } else {
-    const bool draft = style.draft && draft_face_count_ > 0 && style.shading == Shading::kSmooth &&
-                       has_normals_ && !style.wireframe;
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, (draft ? draft_faces_ : faces_).get());
-    const std::size_t faces = draft ? draft_face_count_ : face_count_;
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * faces), GL_UNSIGNED_INT, nullptr);
+    draw_faces(style);
   }
   glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void MeshRenderer::draw_faces(const Style& style) {
+  const bool draft = style.draft && draft_face_count_ > 0 && style.shading == Shading::kSmooth &&
+                     has_normals_ && !style.wireframe;
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, (draft ? draft_faces_ : faces_).get());
+  const std::size_t faces = draft ? draft_face_count_ : face_count_;
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * faces), GL_UNSIGNED_INT, nullptr);
+}
+
+void MeshRenderer::draw_runs(const MeshProgram& program, const Style& style) {
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_faces_.get());
+  for (const Surface::Run& run : surface_->runs) {
+    ShownMaterial material = run.material;
+    if (run.is_plain && surface_->colours.empty()) {
+      const cli::Colour& plain = style.surface;
+      material.factor = {plain.red * plain.red, plain.green * plain.green, plain.blue * plain.blue, 1};
+    }
+    use_material(program, material);
+    const auto* const first = reinterpret_cast<const void*>(run.faces.first_index * sizeof(std::uint32_t));
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.faces.index_count), GL_UNSIGNED_INT, first);
+  }
+}
+
+void MeshRenderer::use_material(const MeshProgram& program, const ShownMaterial& material) {
+  const bool textured = material.texture != nullptr && !surface_->texcoords.empty();
+  glUniform4fv(program.factor, 1, material.factor.data());
+  glUniform1f(program.cutoff, material.cutoff);
+  glUniform1i(program.textured, textured ? 1 : 0);
+  glBindTexture(GL_TEXTURE_2D, textured ? pictures_.at(material.texture.get()).get() : 0);
 }
 
 void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport) {

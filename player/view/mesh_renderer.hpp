@@ -2,10 +2,13 @@
 #include "player/view/bounds.hpp"
 #include "player/view/camera.hpp"
 #include "player/view/gl_objects.hpp"
+#include "player/view/surface.hpp"
 #include "tool/colour_map.hpp"
 
 #include <array>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <span>
 
 #include <tvg/types.hpp>
@@ -35,8 +38,9 @@ class MeshRenderer {
  public:
   MeshRenderer();
 
-  /// The mesh of the frames that follow; nothing is drawn until set_frame().
-  void set_mesh(const Mesh& mesh);
+  /// The mesh of the frames that follow, and how it looks where no values colour it; null for one colour.
+  /// Nothing is drawn until set_frame().
+  void set_mesh(const Mesh& mesh, std::shared_ptr<const Surface> surface = nullptr);
 
   /// What the ground grid lies under and how wide it is: the box of all that will be shown.
   void set_scene(const BoundingBox& bounds, UpAxis up);
@@ -62,21 +66,32 @@ class MeshRenderer {
     GLint surface = -1;
     GLint half_viewport = -1;
     GLint point_size = -1;
+    GLint factor = -1;
+    GLint cutoff = -1;
+    GLint textured = -1;
   };
 
   const MeshProgram& mesh_program(const Style& style);
   void draw_mesh(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
   void draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport);
+  void set_surface(std::shared_ptr<const Surface> surface);
+  void draw_faces(const Style& style);
+  void draw_runs(const MeshProgram& program, const Style& style);
+  void use_material(const MeshProgram& program, const ShownMaterial& material);
   void use_colour_map(cli::ColourMap map);
 
   GlVertexArray mesh_array_, empty_array_;
-  GlBuffer positions_, normals_, values_, faces_, draft_faces_;
+  GlBuffer positions_, normals_, values_, faces_, draft_faces_, surface_faces_, vertex_colours_, texcoords_;
   GlTexture colours_;
   GlProgram background_, grid_;
-  std::array<MeshProgram, 16> programs_;  // by what they do, made when first used
+  std::array<MeshProgram, 32> programs_;  // by what they do, made when first used
   std::uint32_t vertex_count_ = 0;
   std::size_t face_count_ = 0;
   std::size_t draft_face_count_ = 0;  // 0: there are not so many faces
+  std::shared_ptr<const Surface> surface_;
+  SurfaceFrame surface_frame_;
+  std::map<const Image*, GlTexture> pictures_;  // of the surface's materials
+  bool shows_surface_ = false;                  // the frame is drawn by surface_
   bool has_frame_ = false;
   bool has_normals_ = false;
   bool has_values_ = false;

@@ -18,6 +18,17 @@ vec3 base_colour(float amount) {
 }
 const float gloss = 0.45;
 const float evenness = 0.35;  // shadows must not be taken for values
+#elif defined(SURFACE)
+uniform vec4 factor;
+uniform float cutoff;
+uniform bool textured;
+uniform sampler2D colours;
+vec4 surface_colour(vec4 tint, vec2 place) {
+  vec4 texel = textured ? texture(colours, place) : vec4(1.0);
+  return vec4(tint.rgb * tint.rgb * texel.rgb * texel.rgb, tint.a * texel.a) * factor;
+}
+const float gloss = 0.45;
+const float evenness = 0.15;
 #else
 uniform vec3 surface;
 vec3 base_colour(float amount) { return surface * surface; }
@@ -46,6 +57,8 @@ constexpr const char* kMeshVertex = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float value;
+layout(location = 3) in vec4 vertex_colour;
+layout(location = 4) in vec2 texcoord;
 uniform mat4 view;
 uniform mat4 projection;
 #ifdef POINTS
@@ -63,6 +76,10 @@ out vec3 OUT(direction);
 #ifdef VALUES
 out float OUT(amount);
 #endif
+#ifdef SURFACE
+out vec4 OUT(tint);
+out vec2 OUT(place);
+#endif
 void main() {
   vec4 seen = view * vec4(position, 1.0);
   gl_Position = projection * seen;
@@ -72,6 +89,10 @@ void main() {
 #endif
 #ifdef VALUES
   OUT(amount) = value;
+#endif
+#ifdef SURFACE
+  OUT(tint) = vertex_colour;
+  OUT(place) = texcoord;
 #endif
 #ifdef POINTS
   gl_PointSize = point_size;
@@ -94,6 +115,12 @@ out vec3 direction;
 #ifdef VALUES
 in float vertex_amount[];
 out float amount;
+#endif
+#ifdef SURFACE
+in vec4 vertex_tint[];
+in vec2 vertex_place[];
+out vec4 tint;
+out vec2 place;
 #endif
 noperspective out vec3 to_edge;
 flat out float wire;
@@ -119,6 +146,10 @@ void main() {
 #ifdef VALUES
     amount = vertex_amount[i];
 #endif
+#ifdef SURFACE
+    tint = vertex_tint[i];
+    place = vertex_place[i];
+#endif
     to_edge = vec3(0.0);
     to_edge[i] = heights[i];
     wire = behind ? 0.0 : smoothstep(1.0, 9.0, shortest);
@@ -136,6 +167,10 @@ in vec3 direction;
 in float amount;
 #else
 const float amount = 0.0;
+#endif
+#ifdef SURFACE
+in vec4 tint;
+in vec2 place;
 #endif
 #ifdef WIREFRAME
 noperspective in vec3 to_edge;
@@ -157,7 +192,13 @@ void main() {
 #endif
   n *= inversesqrt(max(dot(n, n), 1e-30));
 #endif
+#ifdef SURFACE
+  vec4 base = surface_colour(tint, place);
+  if (base.a < cutoff) discard;
+  vec3 seen = lit(base.rgb, n, to_eye, back);
+#else
   vec3 seen = lit(base_colour(amount), n, to_eye, back);
+#endif
 #ifdef WIREFRAME
   float near = min(to_edge.x, min(to_edge.y, to_edge.z));
   seen = mix(seen, vec3(0.10, 0.11, 0.15), (1.0 - smoothstep(0.25, 1.15, near)) * mix(0.12, 0.50, wire));
@@ -241,6 +282,7 @@ ShaderText mesh_shader(const MeshShaderFeatures& features) {
   if (features.wireframe) head += "#define WIREFRAME\n";
   if (features.values) head += "#define VALUES\n";
   if (features.points) head += "#define POINTS\n";
+  if (features.surface) head += "#define SURFACE\n";
   return {head + kMeshVertex, features.wireframe ? head + kWireGeometry : std::string(),
           head + kLight + kMeshFragment};
 }

@@ -9,6 +9,7 @@ struct MeshShaderFeatures {
   bool wireframe = false;  ///< edges over the surface
   bool values = false;     ///< colours by value
   bool points = false;     ///< vertices without faces
+  bool surface = false;    ///< colours of vertices, times a factor and a picture; not with `values`
 };
 
 ShaderText mesh_shader(const MeshShaderFeatures& features);

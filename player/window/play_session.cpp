@@ -1,5 +1,6 @@
 #include "player/window/play_session.hpp"
 
+#include "player/frames/shown_frames.hpp"
 #include "player/overlay/overlay_values.hpp"
 #include "player/view/image.hpp"
 #include "player/window/window_picture.hpp"
@@ -46,6 +47,9 @@ void PlaySession::use(std::unique_ptr<StreamInput> input) {
   PlayerOptions options;
   options.loader.ring_bytes = options_.memory_bytes;
   options.loader.lod = options_.lod;
+  options.loader.surfaces = !options_.plain;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(name_, ignored)) options.loader.folder = folder_of({name_});
   options.playing = !options_.paused && options_.screenshot.empty();
   options.looping = options_.looping;
   options.rate = options_.rate;
@@ -85,12 +89,29 @@ void PlaySession::look(double now) {
 void PlaySession::show(std::shared_ptr<const PlayerFrame> frame) {
   frame_ = std::move(frame);
   is_new_ = true;
-  if (frame_->mesh != mesh_) {
+  if (frame_->mesh != mesh_ || frame_->surface != surface_) {
+    if (mesh_ == nullptr && !options_.shading_is_given)
+      view_.style.shading = shading_of(player_->snapshot().stream.metadata);
+    const bool is_other = mesh_ != frame_->mesh;
+    const bool is_first = mesh_ == nullptr;
     mesh_ = frame_->mesh;
-    renderer_.set_mesh(*mesh_);
-    fit_view();
+    surface_ = frame_->surface;
+    renderer_.set_mesh(*mesh_, surface_);
+    if (is_first) fitted_ = {};
+    if (is_other && !is_in_view()) fit_view();
   }
   renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, colour_map_of(view_.overlay));
+}
+
+/// Whether the view need not move for the frame: each frame of a captured volume has a mesh of its own, and
+/// where the user looks from stays.
+bool PlaySession::is_in_view() const {
+  if (shows_nothing(*mesh_)) return true;
+  if (fitted_.empty()) return false;
+  BoundingBox both = fitted_, bounds;
+  both.extend(frame_->positions);
+  bounds.extend(frame_->positions);
+  return both.diagonal() < 1.5 * fitted_.diagonal() && 4 * bounds.diagonal() > fitted_.diagonal();
 }
 
 void PlaySession::fit_view() {
@@ -99,6 +120,7 @@ void PlaySession::fit_view() {
   BoundingBox bounds;
   bounds.extend(frame_->positions);
   renderer_.set_scene(bounds, up);
+  fitted_ = bounds;
   bounds.pad(0.12 * view_radius(bounds));  // frames to come move about
   const double aspect = static_cast<double>(window_.width()) / std::max(1, window_.height());
   camera_.fit_closely(bounds, up, aspect);

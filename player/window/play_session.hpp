@@ -49,6 +49,7 @@ class PlaySession {
   /// Asks the player for the frame to show now.
   void look(double now);
   void show(std::shared_ptr<const PlayerFrame> frame);
+  bool is_in_view() const;
   void fit_view();
   void draw(double now);
   InterfaceFacts facts(double now) const;
@@ -76,6 +77,8 @@ class PlaySession {
   PlayerSnapshot snapshot_;
   std::shared_ptr<const PlayerFrame> frame_;  ///< the one shown
   std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<const Surface> surface_;
+  BoundingBox fitted_;  // what the view was fitted to
   PlayFigures figures_;
   int pictures_due_ = 3;
   bool is_new_ = false;  ///< the frame shown was not presented yet

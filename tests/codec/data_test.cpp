@@ -144,16 +144,29 @@ Joined join_all(const std::vector<Stream>& streams) {
   return joined;
 }
 
-TEST(NamedDataOfStreams, OfTheFirstOfJoinedStreamsAreKept) {
+TEST(NamedDataOfStreams, OfJoinedStreamsAreKeptTheFirstOfEachName) {
   const Joined same = join_all({with_data(kSome), with_data(kSome)});
   EXPECT_EQ(decode_stream(same.stream).data, kSome);
   EXPECT_EQ(decode_stream(same.stream).frames.size(), 10u);
   EXPECT_TRUE(same.notes.empty()) << same.notes.front();
 
-  const Joined other = join_all({with_data(kSome), with_data({{"other", {1}}, kSome[1]})});
-  EXPECT_EQ(decode_stream(other.stream).data, kSome);
+  const Joined other =
+      join_all({with_data(kSome), with_data({{"other", {1}}, kSome[1], {kSome[0].name, {2}}})});
+  std::vector<NamedData> all = kSome;
+  all.push_back({"other", {1}});
+  EXPECT_EQ(decode_stream(other.stream).data, all);
   ASSERT_EQ(other.notes.size(), 1u);
-  EXPECT_EQ(other.notes[0], "input1: chunks of data or of unknown kinds are left out: 1");
+  EXPECT_EQ(other.notes[0],
+            "input1: its data \"materials\" are left out; those of an earlier input are kept");
+}
+
+TEST(NamedDataOfStreams, OfFramesAreKeptOfOneWholeStreamAlone) {
+  const std::vector<NamedData> times = {{"times", std::vector<std::uint8_t>(40)}};
+  EXPECT_EQ(decode_stream(join_all({with_data(times)}).stream).data, times);
+  const Joined two = join_all({with_data(times), with_data({})});
+  EXPECT_TRUE(decode_stream(two.stream).data.empty());
+  ASSERT_EQ(two.notes.size(), 1u);
+  EXPECT_EQ(two.notes[0], "input0: data \"times\" are left out: they belong to all frames of one input");
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ void run_relay(const Stream& stream, std::size_t piece, const Verdict& verdict) 
     require(head.has_value());
     if (!begun) require(assembler.begin(*head, metadata).ok());
     begun = true;
+    if (part.kind == tvg::StreamPart::Kind::kData) require(assembler.write_data(part.chunk).ok());
     if (part.kind == tvg::StreamPart::Kind::kMesh) require(assembler.write_mesh(part.chunk).ok());
     if (part.kind == tvg::StreamPart::Kind::kPlan) require(assembler.write_plan(part.chunk).ok());
     if (part.kind == tvg::StreamPart::Kind::kGop) {

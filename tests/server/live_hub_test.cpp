@@ -123,6 +123,22 @@ TEST(LiveHub, WhoJoinsLateIsGivenTheMeshAndThePlanesOfTheGop) {
   EXPECT_EQ(seen, std::string(expected.begin(), expected.end()));
 }
 
+TEST(LiveHub, WhoJoinsLateIsGivenTheDataThatTheStreamBeginsWith) {
+  EncodeOptions options;
+  options.data = {{"materials", std::vector<std::uint8_t>(300, 'a')}, {"extras", {1, 2}}};
+  const std::vector<StreamPart> parts = parts_of(make_live_stream(3, 1, options));
+  const auto watched = [&parts](std::uint64_t room) {
+    const auto stream = std::make_shared<LiveStream>(room);
+    for (const StreamPart& part : parts) stream->add(part);
+    LiveViewer viewer(stream, *stream->wait_for_start(kNow));
+    return decode_text(take_all(viewer));
+  };
+  const test::DecodedStream seen = watched(kRoom);
+  EXPECT_TRUE(seen.complete);
+  EXPECT_EQ(seen.data, options.data);
+  EXPECT_TRUE(watched(1).data.empty()) << "more than may be kept";
+}
+
 TEST(LiveHub, AViewerWhoseSinkFailsIsDone) {
   const auto stream = std::make_shared<LiveStream>(kRoom);
   for (const StreamPart& part : make_parts(2)) stream->add(part);

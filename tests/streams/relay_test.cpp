@@ -246,6 +246,77 @@ TEST(Relay, AGopWhoseMeshIsNotInForceIsAnArgumentError) {
   EXPECT_EQ(status.error().code, ErrorCode::kInvalidArgument);
 }
 
+/// The mesh and the one GOP of a stream.
+struct MeshAndGop {
+  StreamPart head, mesh, gop;
+};
+
+MeshAndGop mesh_and_gop(std::uint32_t width) {
+  std::mt19937 random(width);
+  MeshAndGop result;
+  for (StreamPart& part :
+       split_whole(encode_sequence(random_sequence(grid(width, 3), 2, random), {})).parts) {
+    if (part.kind == StreamPart::Kind::kHead) result.head = part;
+    if (part.kind == StreamPart::Kind::kMesh) result.mesh = part;
+    if (part.kind == StreamPart::Kind::kGop) result.gop = part;
+  }
+  return result;
+}
+
+TEST(Relay, AMeshThatComesAgainStaysInForceAsLongAsANewOne) {
+  const MeshAndGop a = mesh_and_gop(3), b = mesh_and_gop(4), c = mesh_and_gop(5);
+  StreamLimits limits = c.head.limits;
+  limits.meshes = 2;
+  limits.decoder_memory = std::uint64_t{1} << 28;
+  Stream stream;
+  StreamAssembler assembler([&stream](std::span<const std::uint8_t> bytes) {
+    stream.insert(stream.end(), bytes.begin(), bytes.end());
+    return Status();
+  });
+  ASSERT_TRUE(assembler.begin(limits, {}).ok());
+  for (const MeshAndGop* one : {&a, &b, &a, &c}) ASSERT_TRUE(assembler.write_mesh(one->mesh.chunk).ok());
+  for (const MeshAndGop* one : {&a, &c, &a})
+    ASSERT_TRUE(assembler.write_gop(one->gop.chunk, one->gop.frame_count).ok());
+  const std::uint64_t before = assembler.bytes();
+  ASSERT_TRUE(assembler.write_mesh(c.mesh.chunk).ok());
+  EXPECT_EQ(assembler.bytes(), before) << "the latest needs no repeating";
+  ASSERT_TRUE(assembler.write_mesh(a.mesh.chunk, StreamAssembler::Again::kLeaveOut).ok());
+  EXPECT_EQ(assembler.bytes(), before);
+  ASSERT_TRUE(assembler.end().ok());
+  const DecodedStream decoded = decode_stream(stream);
+  EXPECT_TRUE(decoded.complete);
+  EXPECT_TRUE(decoded.damage.empty());
+  EXPECT_EQ(decoded.frames.size(), 6u);
+  const Split again = split_whole(stream);
+  ASSERT_FALSE(again.error);
+  EXPECT_EQ(assemble(again.parts, beginning(again.parts), again.parts.size()), stream);
+}
+
+TEST(Relay, PassesDataOn) {
+  std::mt19937 random(1);
+  EncodeOptions options;
+  options.data = {{"materials", std::vector<std::uint8_t>(300, 'a')}, {"extras", {1, 2}}};
+  const Stream stream = encode_sequence(random_sequence(grid(4, 3), 2, random), options);
+  const Split parts = split_whole(stream);
+  ASSERT_FALSE(parts.error);
+  Stream passed;
+  StreamAssembler assembler([&passed](std::span<const std::uint8_t> bytes) {
+    passed.insert(passed.end(), bytes.begin(), bytes.end());
+    return Status();
+  });
+  Metadata metadata;
+  for (const StreamPart& part : parts.parts) {
+    Status status;
+    if (part.kind == StreamPart::Kind::kHead) status = assembler.begin(part.limits, metadata);
+    if (part.kind == StreamPart::Kind::kData) status = assembler.write_data(part.chunk);
+    if (part.kind == StreamPart::Kind::kMesh) status = assembler.write_mesh(part.chunk);
+    if (part.kind == StreamPart::Kind::kGop) status = assembler.write_gop(part.chunk, part.frame_count);
+    if (part.kind == StreamPart::Kind::kEnd) status = assembler.end();
+    ASSERT_TRUE(status.ok());
+  }
+  EXPECT_EQ(passed, stream);
+}
+
 TEST(Relay, BytesAfterTheEndAreRefused) {
   Stream stream = conformance::make_stream("triangle");
   stream.push_back(0);

@@ -35,7 +35,8 @@ struct JoinReport {
 /// Makes one stream of several, at GOP borders and without decoding: GOPs are copied byte for byte. The head
 /// declares the larger of the inputs' limits; meshes and planes that are in force already are not repeated;
 /// metadata are those of the first input and, where it lacks a key, of the next that has it; free-form data
-/// those that stand before the first input's first mesh; index and tail are made anew. The number of its
+/// too, by their names, but for those of frames ("times", "skeleton/positions"), which are kept where the
+/// result has all the frames of one input and no others; index and tail are made anew. The number of its
 /// first frame in the sequence it was encoded from, which each GOP carries, stays.
 ///
 /// Each input is read once, front to back, and no further than the last frame asked for; all are begun before

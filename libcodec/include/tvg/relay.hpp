@@ -22,6 +22,7 @@ struct StreamPart {
   enum class Kind {
     kHead,      ///< limits; comes first
     kMetadata,  ///< metadata
+    kData,      ///< chunk: free-form data
     kMesh,      ///< chunk, mesh: a mesh that GOPs behind it may name
     kPlan,      ///< chunk, mesh, planes: planes that GOPs of the mesh behind it may name
     kGop,       ///< chunk, mesh, planes, frame_count, first_frame
@@ -78,6 +79,15 @@ class StreamSplitter {
 /// own. Each call returns what the sink does; after an error nothing more may be written.
 class StreamAssembler {
  public:
+  /// What becomes of a mesh or of planes that are in force already.
+  enum class Again {
+    /// They are written, unless they are the latest: GOPs may name them for as long as in the stream they
+    /// come from. For who passes on chunks as they come.
+    kWrite,
+    /// Nothing is written. For who gives each GOP what it names.
+    kLeaveOut,
+  };
+
   /// The sink gets whole chunks.
   explicit StreamAssembler(ByteSink sink);
   ~StreamAssembler();
@@ -86,12 +96,13 @@ class StreamAssembler {
 
   /// Signature, head and, where there are any, metadata.
   Status begin(const StreamLimits& limits, const Metadata& metadata);
-  /// A mesh chunk as StreamPart has it; nothing is written where the mesh is in force already. kInvalidInput
-  /// where another mesh of its name is.
-  Status write_mesh(std::span<const std::uint8_t> chunk);
-  /// A chunk of planes as StreamPart has it; nothing is written where they are in force already.
-  /// kInvalidInput where others of their name are, kInvalidArgument where their mesh is not.
-  Status write_plan(std::span<const std::uint8_t> chunk);
+  /// A chunk of data as StreamPart has it.
+  Status write_data(std::span<const std::uint8_t> chunk);
+  /// A mesh chunk as StreamPart has it. kInvalidInput where another mesh of its name is in force.
+  Status write_mesh(std::span<const std::uint8_t> chunk, Again again = Again::kWrite);
+  /// A chunk of planes as StreamPart has it. kInvalidInput where others of their name are in force,
+  /// kInvalidArgument where their mesh is not.
+  Status write_plan(std::span<const std::uint8_t> chunk, Again again = Again::kWrite);
   /// A GOP chunk as StreamPart has it; kInvalidArgument where the mesh or planes that it names are not in
   /// force.
   Status write_gop(std::span<const std::uint8_t> chunk, std::uint32_t frame_count);
