@@ -73,7 +73,8 @@ void add_property_options(CLI::App& command, InputArguments& arguments) {
   command.add_option("--normal-bits", arguments.normal_bits,
                      "bits of each of a normal's two coordinates, 1 to 16, or exact (default 10)");
   command.add_option("--colour-bits", arguments.colour_bits,
-                     "bits per component of a colour, 1 to 24, or exact (default 8)");
+                     "bits per component of a colour, 1 to 24, or exact (default 8; 12 for those of glTF "
+                     "that are no bytes)");
   command.add_flag("--embed-textures", arguments.embed_textures,
                    "put the files of textures into the stream; without it, it has their names");
   command.add_flag("--skeleton-data", arguments.skeleton_data,
@@ -98,6 +99,7 @@ PropertyOptions property_options(const InputArguments& arguments) {
   options.wanted = arguments.attributes != "none";
   if (arguments.normals == "keep") options.normals = NormalsChoice::kKeep;
   if (arguments.normals == "drop") options.normals = NormalsChoice::kDrop;
+  options.fine_linear_colours = arguments.colour_bits.empty();
   options.embed_textures = arguments.embed_textures;
   return options;
 }

@@ -91,9 +91,8 @@ void repair_gltf_material(json& material) {
   repair_texture_infos(material);
   keep_where(material, "pbrMetallicRoughness", is_object);
   keep_where(material, "doubleSided", [](const json& value) { return value.is_boolean(); });
-  keep_where(material, "alphaMode", [](const json& value) {
-    return value == "OPAQUE" || value == "MASK" || value == "BLEND";
-  });
+  keep_where(material, "alphaMode",
+             [](const json& value) { return value == "OPAQUE" || value == "MASK" || value == "BLEND"; });
   // It is of MASK alone.
   keep_where(material, "alphaCutoff", [&material](const json& value) {
     return value.is_number() && value.get<double>() >= 0 && material.value("alphaMode", "") == "MASK";

@@ -13,8 +13,8 @@ namespace {
 /// A name of a file as a URI has it. Names of programs other than glTF's have blanks and backslashes, and may
 /// be those of another machine's disk ("C:/work/wood.jpg"), of which the last part is kept.
 std::string as_uri(std::string name) {
-  const bool is_of_a_disk = name.starts_with('/') || name.starts_with('\\') ||
-                            (name.size() > 1 && name[1] == ':');
+  const bool is_of_a_disk =
+      name.starts_with('/') || name.starts_with('\\') || (name.size() > 1 && name[1] == ':');
   if (is_of_a_disk) name.erase(0, name.find_last_of("/\\:") + 1);
   std::string uri;
   for (const char c : name) {

@@ -22,8 +22,8 @@ struct GltfBufferInfo {
 /// A glTF file taken apart: its JSON in tinygltf's form, by number, without buffers and what belongs to
 /// materials; that as JSON; where the bytes are.
 struct GltfDocument {
-  bool is_own = false;  ///< `tvg decode` wrote it, with extras for what glTF has no word for
-  Metadata metadata;    ///< of the stream that it was decoded from
+  bool is_own = false;    ///< `tvg decode` wrote it, with extras for what glTF has no word for
+  Metadata metadata;      ///< of the stream that it was decoded from
   int version = 0;        ///< the major one; of others than 2 nothing else is there
   tinygltf::Model model;  ///< an accessor without a view has the number of the last view, which is added
   std::vector<GltfBufferInfo> buffers;

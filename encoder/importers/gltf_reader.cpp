@@ -26,6 +26,7 @@ class GltfReader final : public SceneReader {
     accessors_ = std::make_unique<GltfAccessors>(scene_.path, document_, std::move(read_file), limits);
     scene_.metadata = {{"units", "m"}, {"up", "y"}};
     scene_.metadata.insert(document_.metadata.begin(), document_.metadata.end());
+    scene_.linear_colours = true;
     scene_.notes = document_.notes;
     scene_.most_vertices = limits.most_vertices(bytes_.size());
     for (std::size_t i = 0; i < model().meshes.size(); ++i) {
@@ -43,8 +44,8 @@ class GltfReader final : public SceneReader {
   bool is_read() const { return document_.version == 2; }
 
   std::vector<ScenePart> read_mesh(std::size_t mesh, bool with_attributes) const override {
-    return read_gltf_mesh(scene_, model().meshes[mesh], scene_.mesh_names[mesh], *accessors_,
-                          with_attributes, document_.is_own);
+    return read_gltf_mesh(scene_, model().meshes[mesh], scene_.mesh_names[mesh], *accessors_, with_attributes,
+                          document_.is_own);
   }
   Clip read_clip(std::size_t clip, std::vector<std::string>& /*notes*/) const override {
     return read_gltf_clip(scene_, document_, nodes_, clip, *accessors_);

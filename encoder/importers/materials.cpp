@@ -119,8 +119,7 @@ SequenceMaterials read_sequence_materials(const std::string& mesh_path, const Me
   std::vector<std::string> missing;
   for (const std::string& path : later) {
     const NamedFiles named = look_for_names(path);
-    for (const std::string& file : named.textures)
-      builder.add_texture(file, fs::path(path).parent_path());
+    for (const std::string& file : named.textures) builder.add_texture(file, fs::path(path).parent_path());
     for (const auto& [name, called] : add_libraries(builder, path, named.materials, missing)) {
       if (name != called) result.renamed[path].emplace(name, called);
     }

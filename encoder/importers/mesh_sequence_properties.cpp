@@ -45,9 +45,8 @@ bool MeshSequenceSource::look_at_file(std::size_t file) {
 void MeshSequenceSource::read_materials_of(const std::string& file) {
   if (known_ != nullptr || !data_.empty() || !options_.properties.wanted) return;
   const std::size_t next = std::min(stretch_ + 1, files_.size());
-  SequenceMaterials materials =
-      read_sequence_materials(file, current_, std::span(files_).subspan(next),
-                              options_.properties.embed_textures, notes_);
+  SequenceMaterials materials = read_sequence_materials(file, current_, std::span(files_).subspan(next),
+                                                        options_.properties.embed_textures, notes_);
   data_ = std::move(materials.data);
   renamed_materials_ = std::move(materials.renamed);
 }

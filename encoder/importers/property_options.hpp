@@ -7,6 +7,8 @@ namespace tvg::cli {
 struct PropertyOptions {
   bool wanted = true;  ///< false: nothing but positions
   NormalsChoice normals = NormalsChoice::kAuto;
+  /// Linear colours get as many bits as dark ones need, where they are no whole 255ths.
+  bool fine_linear_colours = true;
   bool embed_textures = false;  ///< the files of textures, not their names only
 };
 

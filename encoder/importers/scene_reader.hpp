@@ -40,6 +40,7 @@ struct Scene {
   std::vector<SceneInstance> instances;     ///< in the order of their nodes
   std::vector<std::string> clip_names;      ///< [clip]
   std::vector<std::string> material_names;  ///< [material], unique
+  bool linear_colours = false;              ///< colours of vertices are of linear light, not sRGB
   /// Vertices, and faces, that all instances may have together.
   std::uint64_t most_vertices = std::numeric_limits<std::uint32_t>::max();
   Metadata metadata;               ///< units and up axis, where the format says them
@@ -75,7 +76,7 @@ struct ScenePart {
   std::uint64_t left_out = 0;                ///< points and lines
   std::optional<Part> names = {};            ///< the object and the group, where they are not node and mesh
   std::map<std::string, std::vector<float>> values = {};  ///< of the part, by name
-  std::vector<std::string> notes;            ///< on attributes that are left out
+  std::vector<std::string> notes;                         ///< on attributes that are left out
 };
 
 /// A scene file, opened. Meshes and clips are read one at a time: a character may come with hundreds of

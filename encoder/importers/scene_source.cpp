@@ -87,8 +87,7 @@ void SceneSource::pose_morphs(double seconds) {
 
 Result<bool> SceneSource::read_frame(std::span<float> positions) {
   if (next_ >= frame_count_) return false;
-  const double seconds =
-      clip_.frame_times.empty() ? clip_.time_of(next_, fps_) : clip_.frame_times[next_];
+  const double seconds = clip_.frame_times.empty() ? clip_.time_of(next_, fps_) : clip_.frame_times[next_];
   clip_.pose(seconds, rest_, local_);
   nodes_.to_scene_space(local_, global_);
   pose_morphs(seconds);
@@ -112,7 +111,8 @@ void SceneSource::settle(const SceneOptions& options, const std::string& rate, c
   if (!start.empty()) metadata_.emplace("start", start);
   if (!rate.empty()) metadata_.emplace("fps", rate);
   // Our own clips have a name of ours.
-  if (clip_.frame_times.empty() && !clip_.name.empty() && is_plain_text(clip_.name)) metadata_.emplace("name", clip_.name);
+  if (clip_.frame_times.empty() && !clip_.name.empty() && is_plain_text(clip_.name))
+    metadata_.emplace("name", clip_.name);
   data_ = std::move(data);
   std::vector<std::string> found;
   if (std::ranges::any_of(mesh_.properties.attributes, [](const Attribute& attribute) {
@@ -138,6 +138,20 @@ void SceneSource::settle(const SceneOptions& options, const std::string& rate, c
                                 skeleton_.nodes.size()));
   }
   for (const std::string& note : found) notes.push_back(fmt::format("{}: {}", file_, note));
+}
+
+/// Bits for colours of linear light that are about as fine in the dark as 8 bits are in sRGB.
+constexpr int kLinearColourBits = 12;
+
+bool is_whole_255th(float value) {
+  return std::abs(255 * value - std::round(255 * value)) < 1e-3F;
+}
+
+void refine_linear_colours(MeshProperties& properties) {
+  for (Attribute& attribute : properties.attributes) {
+    if (attribute.kind == AttributeKind::kColour && !std::ranges::all_of(attribute.values, is_whole_255th))
+      attribute.bits = kLinearColourBits;
+  }
 }
 
 void note_clips(const Scene& scene, std::size_t chosen, std::vector<std::string>& notes) {
@@ -215,6 +229,7 @@ OpenedScene open_scene(const SceneReader& reader, const SceneOptions& options) {
   const std::size_t vertices_before = mesh.positions.size();
   weld(mesh);
   note_mesh(path, mesh, vertices_before, opened.notes);
+  if (scene.linear_colours && options.properties.fine_linear_colours) refine_linear_colours(mesh.properties);
   auto source = std::make_unique<SceneSource>(scene, std::move(clip), std::move(mesh), fps);
   std::vector<NamedData> data;
   if (options.properties.wanted) data = reader.read_data(options.properties.embed_textures, opened.notes);
