@@ -2,6 +2,7 @@
 #include "cli/properties_info.hpp"
 #include "cli/scene_info.hpp"
 #include "cli/stream_stretches.hpp"
+#include "cli/time_base.hpp"
 #include "tool/option_values.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/tool_error.hpp"
@@ -57,6 +58,7 @@ struct StreamSummary {
   StreamSurvey stream;
   std::optional<DecodedFacts> decoded;
   std::uint64_t damages = 0;
+  TimeBase time;
 
   SurveyedMesh last_mesh() const { return stream.meshes.empty() ? SurveyedMesh() : stream.meshes.back(); }
   std::optional<std::uint32_t> flagged(const GopInfo& gop) const {
@@ -178,6 +180,9 @@ StreamSummary summarize(const std::string& path, bool bits) {
   if (!stream) throw tool_error(reader.name(), stream.error());
   summary.stream = std::move(*stream);
   summary.damages = summary.stream.findings.size();
+  const auto is_times = [](const SurveyedData& data) { return data.name == "times"; };
+  summary.time =
+      time_base_of(summary.stream.metadata, std::ranges::any_of(summary.stream.data, is_times), path);
   if (bits) summary.decoded = decode_facts(path, summary.damages);
   return summary;
 }
@@ -221,6 +226,7 @@ void print_json(const StreamSummary& summary) {
                     {"plans", limits.plans},
                     {"decoder_memory", limits.decoder_memory}};
   json["metadata"] = stream.metadata;
+  json["time"] = json_of(summary.time);
   json["bytes"] = stream.bytes;
   json["frames"] = stream.frames();
   json["vertices"] = summary.last_mesh().vertices;
@@ -339,6 +345,7 @@ void print_text(const StreamSummary& summary) {
     fmt::print("  {} meshes, listed below; the counts are those of the last\n", stream.meshes.size());
   fmt::print("  decoding needs at most {} of memory\n", readable_bytes(stream.head.limits.decoder_memory));
   for (const auto& [key, value] : stream.metadata) fmt::print("  {}: {}\n", key, value);
+  if (const std::string time = words_for(summary.time); !time.empty()) fmt::print("  time: {}\n", time);
   if (summary.decoded) {
     fmt::print("  frames predicted");
     const char* separator = " by";

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvg::cli {
@@ -32,6 +33,7 @@ struct Verdict {
   std::vector<Finding> findings;
   std::uint64_t frames = 0;  ///< decoded
   std::uint64_t lost = 0;    ///< frames, those of unknown number left out
+  std::uint32_t lods = 0;    ///< the most coarser meshes that a mesh has
 
   bool losses_known() const {
     return std::all_of(findings.begin(), findings.end(),
@@ -60,6 +62,9 @@ Verdict read_all(StreamReader& reader, bool quiet) {
   ProgressBar bar("verifying", quiet);
   for (;;) {
     switch (reader.next()) {
+      case Decoder::Event::kMesh:
+        verdict.lods = std::max(verdict.lods, decoder.lod_count());
+        break;
       case Decoder::Event::kFrame:
         bar.update(++verdict.frames, std::nullopt);
         break;
@@ -77,6 +82,25 @@ Verdict read_all(StreamReader& reader, bool quiet) {
         return verdict;
       default:
         break;
+    }
+  }
+}
+
+/// Decodes every coarser mesh of a stream that is fine as a whole. Of a pipe there is nothing left to read.
+void read_lods(const StreamReader& whole, const std::string& path, bool quiet, Verdict& verdict) {
+  if (!whole.size()) return;
+  for (std::uint32_t lod = 1; lod <= verdict.lods && verdict.findings.empty(); ++lod) {
+    StreamReader reader(path);
+    reader.use_lod(lod);
+    Verdict coarse = read_all(reader, quiet);
+    for (Finding& finding : coarse.findings) {
+      finding.error.message = fmt::format("lod {}: {}", lod, finding.error.message);
+      verdict.findings.push_back(std::move(finding));
+    }
+    if (verdict.findings.empty() && coarse.frames != verdict.frames) {
+      const std::string message =
+          fmt::format("lod {} has {} frames and the whole {}", lod, coarse.frames, verdict.frames);
+      verdict.findings.push_back({Error{ErrorCode::kMalformed, message, {}, {}, "§5.6"}, 0});
     }
   }
 }
@@ -99,7 +123,8 @@ std::string lost_text(std::optional<std::uint64_t> frames) {
 
 void run_verify(const VerifyArguments& arguments) {
   StreamReader reader(arguments.input);
-  const Verdict verdict = read_all(reader, arguments.quiet);
+  Verdict verdict = read_all(reader, arguments.quiet);
+  read_lods(reader, arguments.input, arguments.quiet, verdict);
   const std::vector<Finding>& findings = verdict.findings;
   if (arguments.json) {
     print_json(reader.name(), verdict);

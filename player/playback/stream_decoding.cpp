@@ -1,5 +1,4 @@
 #include "player/playback/stream_loader.hpp"
-#include "tool/frame_times.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -7,7 +6,6 @@
 #include <new>
 #include <utility>
 
-#include <tvg/data.hpp>
 #include <tvg/normals.hpp>
 
 // The decoding thread of the loader.
@@ -20,10 +18,6 @@ using Clock = std::chrono::steady_clock;
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-// Frames that may be held outside the ring: the one being made, the one shown, and two that the window still
-// compares it with.
-constexpr std::size_t kFramesOutside = 4;
 
 }  // namespace
 
@@ -233,40 +227,6 @@ void StreamLoader::begin_live_anew() {
   base_ = next_frame_;
   decoder_.reset();
   go_to(base_);
-}
-
-void StreamLoader::take_data() {
-  if (decoder_->data().name == "times") {
-    const Result<NamedData> data = unpack_data(decoder_->data());
-    const std::lock_guard lock(mutex_);
-    if (data) state_.times = cli::times_from(data->bytes);
-    return;
-  }
-  if (!options_.surfaces || has_materials_ || !ShownMaterials::wants(decoder_->data().name)) return;
-  if (Result<NamedData> data = unpack_data(decoder_->data())) materials_.take(*std::move(data));
-}
-
-void StreamLoader::begin_mesh() {
-  if (options_.surfaces) {
-    if (!std::exchange(has_materials_, true)) materials_.make(options_.folder);
-    surface_ = make_surface(decoder_->mesh(), decoder_->properties(), materials_);
-  }
-  const std::lock_guard lock(mutex_);
-  if (state_.mesh && *state_.mesh == decoder_->mesh()) return;
-  state_.mesh = std::make_shared<const Mesh>(decoder_->mesh());
-  state_.lod = decoder_->mesh_info().lod;
-  state_.lods = decoder_->lod_count();
-  fit_ring(state_.mesh->vertex_count);
-}
-
-/// As many frames as fit the bytes allowed: positions, normals and values of each.
-void StreamLoader::fit_ring(std::size_t vertices) {
-  const std::uint64_t frame_bytes = 7 * sizeof(float) * std::max<std::uint64_t>(vertices, 1);
-  const std::uint64_t fitting = std::max<std::uint64_t>(options_.ring_bytes / frame_bytes, 2);
-  ring_.set_capacity(static_cast<std::size_t>(
-      std::min<std::uint64_t>(std::max<std::size_t>(options_.ring_frames, 2), fitting)));
-  pool_.drop_free();
-  pool_.set_limit(ring_.capacity() + kFramesOutside);
 }
 
 void StreamLoader::begin_gop() {

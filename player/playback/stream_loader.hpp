@@ -25,7 +25,7 @@ struct LoaderOptions {
                              << 20;  ///< most bytes of frames held, but never below 2 frames
   bool measure_bits = false;         ///< fill PlayerFrame::bits, at some cost
   bool surfaces = true;              ///< fill PlayerFrame::surface
-  std::string folder;                ///< where pictures lie that the stream names; empty for nowhere
+  std::string folder{};              ///< where pictures lie that the stream names; empty for nowhere
   std::uint32_t lod = 0;             ///< which coarser mesh is decoded (Decoder::use_lod()); 0 the whole
 };
 

@@ -78,6 +78,60 @@ TEST_F(Render, DrawsAFileThatTheShellRedirects) {
   EXPECT_EQ(picture("redirected.png").pixels, picture("named.png").pixels);
 }
 
+TEST_F(Render, DrawsFilesWhoseMeshChangesAndFramesThatShowNothing) {
+  folder_.write("a_0.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder_.write("a_1.obj", "# nothing\n");
+  folder_.write("a_2.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
+  good("tvg encode a_0.obj a_1.obj a_2.obj -o a.tvg -q");
+  good("tvg render a_0.obj a_1.obj a_2.obj -o src_%d.png --size 64x48 --camera front -q");
+  good("tvg render a.tvg -o tvg_%d.png --size 64x48 --camera front -q");
+  for (const std::string number : {"0", "1", "2"}) {
+    const player::Image source = picture("src_" + number + ".png"),
+                        stream = picture("tvg_" + number + ".png");
+    EXPECT_LT(player::compare_images(source, stream, 24).mean, 1) << number;
+    const std::uint8_t* const middle = source.pixel(40, 30);
+    EXPECT_EQ(middle[0] > middle[2] + 20, number == "2") << number << ": clay, or the background";
+  }
+}
+
+/// A square whose left half has a red and whose right half a green material, and another with a texture.
+TEST_F(Render, DrawsMaterialsTexturesAndColours) {
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0.5 0 0\nv 0.5 1 0\n";
+  folder_.write("m.mtl", "newmtl red\nKd 1 0 0\nnewmtl picture\nmap_Kd half.png\n");
+  folder_.write("m.obj", "mtllib m.mtl\n" + square + "usemtl red\nf 1 5 6 4\nusemtl none\nf 5 2 3 6\n");
+  folder_.write("t.obj", "mtllib m.mtl\n" + square +
+                             "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl picture\nf 1/1 2/2 3/3 4/4\n");
+  player::Image half{8, 8, std::vector<std::uint8_t>(256, 255)};  // blue above, green below
+  for (std::size_t i = 0; i < 64; ++i) {
+    half.pixels[4 * i] = 0;
+    half.pixels[4 * i + (i < 32 ? 1 : 2)] = 0;
+  }
+  player::write_png(folder_.path("half.png"), half);
+  folder_.write("c.obj", "v 0 0 0 0 0 1\nv 1 0 0 0 0 1\nv 1 1 0 0 0 1\nv 0 1 0 0 0 1\nf 1 2 3 4\n");
+  const auto strongest = [](const player::Image& image, int column, int row) {
+    const std::uint8_t* const at = image.pixel(column, row);
+    return std::max_element(at, at + 3) - at;
+  };
+  for (const char* const name : {"m", "t", "c"}) {
+    const std::string file(name);
+    good("tvg encode " + file + ".obj -o " + file + ".tvg -q");
+    good("tvg render " + file + ".tvg -o " + file + "_tvg.png --size 64x64 --camera front -q");
+    good("tvg render " + file + ".obj -o " + file + "_obj.png --size 64x64 --camera front -q");
+    EXPECT_LT(player::compare_images(picture(file + "_tvg.png"), picture(file + "_obj.png"), 24).mean, 1);
+  }
+  EXPECT_EQ(strongest(picture("m_tvg.png"), 20, 32), 0);
+  EXPECT_LT(picture("m_tvg.png").pixel(20, 32)[1], 110) << "red, and not clay";
+  EXPECT_EQ(strongest(picture("t_tvg.png"), 32, 16), 2) << "the picture's upper half is above";
+  EXPECT_EQ(strongest(picture("t_tvg.png"), 32, 48), 1);
+  EXPECT_EQ(strongest(picture("c_tvg.png"), 32, 32), 2);
+  good("tvg render c.tvg -o plain.png --size 64x64 --camera front --plain -q");
+  EXPECT_EQ(strongest(picture("plain.png"), 32, 32), 0);
+  fs::remove(folder_.path("half.png"));
+  const Outcome without = run("tvg render t.tvg -o without.png --size 64x64");
+  EXPECT_EQ(without.status, 0);
+  EXPECT_NE(without.err.find("texture half.png: not there"), std::string::npos) << without.err;
+}
+
 TEST_F(Render, MakesOneSheetOfSeveralFrames) {
   good("tvg render hand.tvg -o sheet.png --size 320x240 -q");
   good("tvg render hand.tvg -o sheet2.png --size 320x240 --sheet 2x1 -q");

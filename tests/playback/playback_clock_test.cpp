@@ -32,6 +32,18 @@ TEST(PlaybackClock, FollowsTheRateAndTheSpeed) {
   EXPECT_EQ(clock.speed(), PlaybackClock::kSlowest);
 }
 
+TEST(PlaybackClock, ShowsUnevenFramesAtTheirOwnTimes) {
+  PlaybackClock clock;
+  clock.set_rate(10, 0);
+  clock.set_times({5, 5.5, 7}, 0);
+  clock.play(0);
+  EXPECT_EQ(clock.frame(0.4), 0u);
+  EXPECT_EQ(clock.frame(0.51), 1u);
+  EXPECT_EQ(clock.frame(1.9), 1u);
+  EXPECT_EQ(clock.frame(2.01), 2u);
+  EXPECT_EQ(clock.frame(2.31), 5u) << "frames behind those follow at the rate";
+}
+
 TEST(PlaybackClock, BeginsAgainAfterTheRangeOrStopsAtItsEnd) {
   PlaybackClock clock;
   clock.set_rate(10, 0);
