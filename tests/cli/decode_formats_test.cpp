@@ -79,7 +79,7 @@ TEST_F(DecodeFormats, WhatAFormatCannotHoldIsTold) {
   EXPECT_THAT(good("tvg decode whole.tvg -o back_%d.stl").err, HasSubstr("STL has no place for"));
   EXPECT_THAT(good("tvg decode whole.tvg -o back_%d.ply").err,
               HasSubstr("PLY has no place for the frames' uneven times and objects, groups and materials"));
-  EXPECT_THAT(good("tvg decode whole.tvg -o back.glb").err, HasSubstr("glTF has no place for polygons"));
+  EXPECT_THAT(good("tvg decode whole.tvg -o back.glb").err, Not(HasSubstr("has no place")));
   EXPECT_THAT(good("tvg decode whole.tvg -o back.npy").err,
               HasSubstr("NPY has no place for the frames' uneven"));
   EXPECT_EQ(good("tvg decode whole.tvg -o back.glb --quiet").err, "");

@@ -33,12 +33,13 @@ void write_file(const fs::path& path, const std::string& bytes) {
 }
 
 /// A moving tetrahedron as the tool itself writes it.
-std::string written(const fs::path& folder, const std::string& name, int frames) {
+std::string written(const fs::path& folder, const std::string& name, int frames,
+                    const tvg::MeshProperties& properties = {}) {
   const fs::path path = folder / name;
   tvg::cli::SinkOptions options;
   options.mesh_beside_cache = false;
   const auto sink = tvg::cli::open_sink(path, options);
-  sink->begin_mesh(tetrahedron(), {}, {{"name", "toy"}, {"fps", "30"}}, frames);
+  sink->begin_mesh(tetrahedron(), properties, {{"name", "toy"}, {"fps", "30"}}, frames);
   for (int frame = 0; frame < frames; ++frame) {
     const float t = 0.1F * static_cast<float>(frame);
     sink->write_frame(tvg::FramePositions{t, 0, 0, 1 + t, 0, 0, t, 1, 0.125F, t, -0.5F, 1 + t});
@@ -90,6 +91,17 @@ void write_mesh_seeds(const fs::path& target) {
   out("stl_fuzz/ascii",
       "solid toy\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
       "endfacet\nendsolid toy\n");
+}
+
+/// With what only our own glTF says: parts, polygons, and names of attributes.
+void write_scene_seed(const fs::path& target) {
+  tvg::MeshProperties properties;
+  properties.parts = {{"body", "front", "skin"}, {"body", "back", ""}};
+  properties.face_parts = {0, 0, 1, 1};
+  properties.polygons = {{0, 4}};
+  properties.attributes.push_back(
+      {"heat", tvg::AttributeKind::kGeneric, tvg::AttributeDomain::kVertex, 1, 0, false, {0, 1, 2, 3}, {}});
+  write_file(target / "gltf_fuzz/own", "\xff" + written(target, "a.glb", kFrames, properties));
 }
 
 void write_cache_seeds(const fs::path& target) {
@@ -152,6 +164,7 @@ int main(int argc, char** argv) {
   try {
     fs::create_directories(argv[1]);
     write_mesh_seeds(argv[1]);
+    write_scene_seed(argv[1]);
     write_cache_seeds(argv[1]);
     write_other_seeds(argv[1]);
     return 0;
