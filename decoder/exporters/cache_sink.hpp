@@ -1,7 +1,7 @@
 #pragma once
 #include "decoder/exporters/frame_sink.hpp"
-#include "decoder/exporters/frame_times.hpp"
 #include "decoder/exporters/lost_properties.hpp"
+#include "decoder/exporters/output_times.hpp"
 #include "tool/atomic_file.hpp"
 #include "tool/origin.hpp"
 
@@ -59,7 +59,7 @@ class CacheSink final : public FrameSink {
   LossNotes losses_;
   std::string name_;
   Origin origin_{};
-  FrameTimes times_;
+  OutputTimes times_;
   bool times_written_ = false;  // with the header, and known by then
   std::uint64_t promised_ = 0;  // frames in the header
   std::uint64_t frames_ = 0;    // frames written

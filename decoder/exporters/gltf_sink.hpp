@@ -1,8 +1,8 @@
 #pragma once
 #include "decoder/exporters/frame_sink.hpp"
-#include "decoder/exporters/frame_times.hpp"
 #include "decoder/exporters/gltf_stretch.hpp"
 #include "decoder/exporters/lost_properties.hpp"
+#include "decoder/exporters/output_times.hpp"
 #include "tool/origin.hpp"
 
 #include <memory>
@@ -53,7 +53,7 @@ class GltfSink final : public FrameSink {
   nlohmann::json document_;
   GltfBuffer buffer_;
   GltfMaterials materials_;
-  FrameTimes times_;
+  OutputTimes times_;
   LossNotes losses_;
   Metadata metadata_;
   nlohmann::json extras_;

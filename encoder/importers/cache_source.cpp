@@ -209,6 +209,10 @@ void CacheSource::read_mdd_times(std::vector<std::string>& notes) {
   if (given_rate_ > 0) {
     notes.push_back(fmt::format("{}: its times, {}, are uneven from frame {} on, and give way to --fps",
                                 file_.name(), times.span(), uneven));
+  } else if (!times.rise()) {
+    notes.push_back(fmt::format(
+        "{}: its times, {}, do not rise from frame to frame, and are left out: --fps says the rate",
+        file_.name(), times.span()));
   } else {
     data_.push_back(times.data());
     notes.push_back(

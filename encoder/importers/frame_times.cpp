@@ -20,6 +20,13 @@ std::size_t FrameTimes::first_uneven() const {
   return times_.size();
 }
 
+bool FrameTimes::rise() const {
+  for (std::size_t frame = 0; frame < times_.size(); ++frame) {
+    if (!std::isfinite(times_[frame]) || (frame > 0 && times_[frame] <= times_[frame - 1])) return false;
+  }
+  return true;
+}
+
 std::string FrameTimes::rate() const {
   if (times_.size() < 2 || first_uneven() < times_.size()) return "";
   const double rate = static_cast<double>(times_.size() - 1) / (double{times_.back()} - double{times_[0]});

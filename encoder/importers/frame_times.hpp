@@ -18,6 +18,8 @@ class FrameTimes {
 
   /// The first frame that does not stand where even steps lead; the number of frames where all do.
   std::size_t first_uneven() const;
+  /// Whether each is a number, and later than the one before.
+  bool rise() const;
   /// "30", "30000/1001" or the like; empty where the times are uneven or count frames instead of seconds.
   std::string rate() const;
   /// When the first frame is, in seconds: "0.5". Empty where that is 0, or where the times count frames and

@@ -314,10 +314,15 @@ TEST_F(LenientSequence, ArraysOfNumpyAreCachesOfEachPrecision) {
 TEST_F(LenientSequence, UnevenTimesAreTold) {
   folder_.write("a.obj", sample_obj());
   std::string uneven = mdd_bytes(4, 4, 4, 0.04);
-  uneven[8 + 4 * 2] = 'B';
+  uneven[8 + 4 * 3] = 'B';
   folder_.write("a.mdd", uneven);
   EXPECT_THAT(open({"a.obj"}).notes,
-              Contains(HasSubstr("are uneven from frame 2 on: the time of each frame is kept")));
+              Contains(HasSubstr("are uneven from frame 3 on: the time of each frame is kept")));
+  uneven[8 + 4 * 2] = 'C';  // later than the one behind it
+  folder_.write("a.mdd", uneven);
+  const OpenedSource falling = open({"a.obj"});
+  EXPECT_THAT(falling.notes, Contains(HasSubstr("do not rise from frame to frame, and are left out")));
+  EXPECT_THAT(falling.source->data(), IsEmpty());
 }
 
 TEST(QuarterTurn, IsFoundBothWaysAndNotWhereThereIsNone) {

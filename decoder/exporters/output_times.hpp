@@ -9,7 +9,7 @@ namespace tvg::cli {
 
 /// When frames are shown, in seconds: the stream's own times ("times", one float64 for each frame, least
 /// significant byte first), else evenly by `fps`.
-class FrameTimes {
+class OutputTimes {
  public:
   /// Takes "times", and nothing else.
   void add_data(const NamedData& data);
