@@ -30,11 +30,11 @@ class OffReader {
     cursor_.next_line();
     for (std::uint64_t vertex = 0; vertex < vertices; ++vertex) read_vertex(vertex, vertices);
     for (std::uint64_t face = 0; face < faces; ++face) read_face(face, faces);
-    if (cursor_.next_content_line('#')) {
-      cursor_.fail(fmt::format("the header promises {} vertices and {} faces, but more lines follow",
-                               vertices, faces));
-    }
     builder_.finish(file_);
+    if (cursor_.next_content_line('#')) {
+      mesh_.notes.push_back(
+          fmt::format("{} bytes behind what its header promises left out", cursor_.bytes_left()));
+    }
     if (mesh_.positions_only) return;
     attributes_.finish(mesh_);
     if (coloured_faces_ > 0)

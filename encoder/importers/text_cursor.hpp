@@ -26,6 +26,7 @@ class TextCursor {
 
   std::size_t line() const { return line_; }
   bool at_end() const { return next_ == end_; }
+  std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - next_); }
   /// Whether nothing but blanks is left before the end of the line or of the text; skips these blanks.
   bool at_line_end() {
     skip_blanks();
