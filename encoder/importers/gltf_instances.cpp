@@ -34,6 +34,7 @@ class InstanceReader {
 
  private:
   std::vector<double> read_list(const char* attribute, std::size_t width) {
+    if (!attributes_.Has(attribute)) return {};
     const tinygltf::Value& accessor = attributes_.Get(attribute);
     if (!accessor.IsInt()) return {};
     const std::string what = fmt::format("node \"{}\", {} of {}", name_, attribute, kExtension);

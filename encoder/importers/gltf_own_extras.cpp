@@ -71,8 +71,9 @@ void name_attributes(const Value& names, std::vector<Attribute>& attributes) {
 }  // namespace
 
 void read_own_extras(const Value& extras, ScenePart& part) {
-  part.names = Part{text_of(extras, "object"), text_of(extras, "group"), ""};
+  part.names = Part();
   if (!extras.IsObject()) return;
+  part.names = Part{text_of(extras, "object"), text_of(extras, "group"), ""};
   part.polygons = polygons_of(extras.Get("polygons"), part.faces);
   const Value& values = extras.Get("values");
   for (const std::string& name : values.Keys()) {
