@@ -162,7 +162,8 @@ TEST(PlyReader, RefusesBrokenContentWithItsPlace) {
               HasSubstr("line 15: the list 'vertex_indices' has the length -3"));
   EXPECT_THAT(message("0 1 0.125", "0 inf 0.125"),
               HasSubstr("line 13: vertex 2 has a coordinate that is NaN"));
-  EXPECT_THAT(parsed(parse_ply, sample_ply_ascii() + "\n\nmore").notes, Contains(HasSubstr("4 bytes behind")));
+  EXPECT_THAT(parsed(parse_ply, sample_ply_ascii() + "\n\nmore").notes,
+              Contains(HasSubstr("4 bytes behind")));
   EXPECT_THAT(parsed(parse_ply, sample_ply_binary(true) + "x").notes,
               ElementsAre("the vertex properties bones are left out",
                           "the face properties group, area are left out", HasSubstr("1 bytes behind")));
