@@ -2,7 +2,9 @@
 
 #include "tool/tool_error.hpp"
 
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace tvg::cli {
 
@@ -16,14 +18,6 @@ PropertyComparison comparison_of(const FrameSource& original, const FrameSource&
   return std::move(*made);
 }
 
-void take_values(const FrameSource& source, std::vector<std::span<const float>>& values) {
-  const std::vector<Attribute>& attributes = source.properties().attributes;
-  values.assign(attributes.size(), {});
-  for (std::size_t i = 0; i < attributes.size(); ++i) {
-    if (attributes[i].animated) values[i] = source.animated_values(i);
-  }
-}
-
 }  // namespace
 
 ComparedProperties::ComparedProperties(const FrameSource& original, const FrameSource& decoded,
@@ -35,9 +29,9 @@ ComparedProperties::ComparedProperties(const FrameSource& original, const FrameS
 
 void ComparedProperties::add_frame() {
   if (!comparison_.wants_frames()) return;
-  take_values(original_, original_values_);
-  take_values(decoded_, decoded_values_);
-  if (Status status = comparison_.add_frame(original_values_, decoded_values_); !status.ok())
+  const std::vector<std::span<const float>> original = all_animated_values(original_);
+  const std::vector<std::span<const float>> decoded = all_animated_values(decoded_);
+  if (Status status = comparison_.add_frame(original, decoded); !status.ok())
     throw tool_error(name_, status.error());
 }
 

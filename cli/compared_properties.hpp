@@ -1,8 +1,5 @@
 #pragma once
-#include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <tvg/property_metrics.hpp>
 #include <tvg/source.hpp>
@@ -25,7 +22,6 @@ class ComparedProperties {
   const FrameSource& decoded_;
   std::string name_;
   PropertyComparison comparison_;
-  std::vector<std::span<const float>> original_values_, decoded_values_;  ///< [attribute], of a frame
 };
 
 }  // namespace tvg::cli

@@ -11,7 +11,7 @@ using nlohmann::json;
 namespace {
 
 /// A name of a file as a URI has it. Names of programs other than glTF's have blanks and backslashes, and may
-/// be those of another machine's disk ("C:/work/wood.jpg"), of which the last part is kept.
+/// be those of another machine's disk ("C:/pictures/wood.jpg"), of which the last part is kept.
 std::string as_uri(std::string name) {
   const bool is_of_a_disk =
       name.starts_with('/') || name.starts_with('\\') || (name.size() > 1 && name[1] == ':');

@@ -28,8 +28,9 @@ Status FrameSource::skip_frames(std::uint64_t count) {
 
 std::vector<std::span<const float>> all_animated_values(const FrameSource& source) {
   std::vector<std::span<const float>> values;
-  for (std::size_t i = 0; i < source.properties().attributes.size(); ++i)
-    values.push_back(source.animated_values(i));
+  const std::vector<Attribute>& attributes = source.properties().attributes;
+  for (std::size_t i = 0; i < attributes.size(); ++i)
+    values.push_back(attributes[i].animated ? source.animated_values(i) : std::span<const float>());
   return values;
 }
 
