@@ -7,7 +7,7 @@
 #   aarch64                           64 bits of ARM, under qemu
 #   s390x                             a machine that stores the most significant byte first, under qemu
 #   mingw                             Windows, under wine
-#   wasm                              WebAssembly made for size, under Node
+#   wasm                              WebAssembly, under Node, and the npm package around it
 #   size                              made for size, this machine
 set -euo pipefail
 cd "$(dirname "$0")/.."

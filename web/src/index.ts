@@ -1,0 +1,6 @@
+export { type FetchOptions, type StreamSource } from "./byte_source.js";
+export { Decoder } from "./decoder.js";
+export { errorCodeName, TvgError, type TvgErrorCode } from "./errors.js";
+export { compileModule, type ModuleSource, type TvgExports, TvgModule } from "./module.js";
+export { type StreamEvent, type StreamOptions, TvgStream } from "./stream.js";
+export * from "./types.js";
