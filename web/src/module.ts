@@ -62,7 +62,7 @@ export async function compileModule(source: ModuleSource = defaultModuleUrl()): 
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (typeof Response !== "undefined" && source instanceof Response) return compileResponse(source);
   const url = source instanceof URL ? source : new URL(source as string, baseUrl());
-  if (url.protocol === "file:") return WebAssembly.compile(await readFile(url));
+  if (url.protocol === "file:") return WebAssembly.compile((await readFile(url)) as BufferSource);
   let response: Response;
   try {
     response = await fetch(url.href, { credentials: "same-origin" });

@@ -29,6 +29,9 @@ export class TvgStream {
   /** In the stream, of the next byte to push. */
   private position = 0;
   private ended = false;
+  /** Counts seeks: bytes that were asked for before one are not pushed after it. */
+  private turn = 0;
+  private turnOfEvent = 0;
 
   private constructor(
     /** For frames, meshes and attributes; do not push, poll or seek by it. */
@@ -68,10 +71,17 @@ export class TvgStream {
     return this.decoder.frame().number;
   }
 
+  /** Whether what `next` came to is still there: a seek may come before its promise is heard of. */
+  get isAtHand(): boolean {
+    return this.turnOfEvent === this.turn;
+  }
+
   /** The next mesh or frame. After "end" only `seek` goes on. */
   async next(): Promise<StreamEvent> {
     for (;;) {
-      switch (this.decoder.poll()) {
+      const event = this.decoder.poll();
+      this.turnOfEvent = this.turn;
+      switch (event) {
         case "need-bytes":
           await this.feed();
           break;
@@ -92,8 +102,9 @@ export class TvgStream {
     }
   }
 
-  /** The next frame that `next` comes to is this one, or the first good one after it. */
+  /** The next frame that `next` comes to is this one, or the first good one after it; also while `next` waits. */
   seek(frame: number): void {
+    ++this.turn;
     this.position = this.decoder.seek(frame);
     this.source.goTo(this.position);
     this.ended = false;
@@ -130,8 +141,11 @@ export class TvgStream {
   private async feed(): Promise<void> {
     const passed = this.decoder.skip();
     if (passed > 0) this.source.goTo((this.position += passed));
+    const { turn } = this;
     const bytes = await this.readAgain();
-    if (bytes !== undefined) {
+    if (turn !== this.turn) {
+      this.source.goTo(this.position);
+    } else if (bytes !== undefined) {
       this.position += bytes.length;
       this.decoder.push(bytes);
     } else if (!this.ended) {
