@@ -56,6 +56,7 @@ export class TvgPlayer extends EventTarget {
   private waits = true;
   private loops = false;
   private closed = false;
+  private toldCanPlay = false;
   private allHere = false;
 
   constructor(source: StreamSource, options: PlayerOptions = {}) {
@@ -182,6 +183,7 @@ export class TvgPlayer extends EventTarget {
   /** Draws the newest frame whose time has come, and tells when there is none to go on with. */
   private show(): void {
     const wanted = Math.floor(this.time * this.frameRate + 1e-6);
+    const news: string[] = [];
     let shown = 0;
     while (this.queue.length > 0) {
       const next = this.queue[0]!;
@@ -189,13 +191,13 @@ export class TvgPlayer extends EventTarget {
         const due = next.lap < this.lap || (next.lap === this.lap && next.number <= wanted);
         if (!due && !this.seeking && this.frame) {
           // Frames in between are lost: the clock goes on.
-          if (this.waits) this.settle();
+          if (this.waits) this.settle(news);
           break;
         }
         this.frame = next;
         ++shown;
         if (this.seeking) this.time = Math.max(this.time, next.number / this.frameRate);
-        this.settle();
+        this.settle(news);
       } else {
         this.mesh = next;
         this.tell("mesh");
@@ -207,18 +209,19 @@ export class TvgPlayer extends EventTarget {
       this.tell("frame");
       this.tell("timeupdate");
     }
+    // Told last: by then who draws has the frame.
+    for (const name of news) this.tell(name);
     this.judge(wanted);
   }
 
-  private settle(): void {
-    const first = this.frame!.turn === 0 && this.waits && !this.seeking;
-    this.waits = false;
-    if (this.seeking) {
-      this.seeking = false;
-      this.tell("seeked");
-    }
-    if (first) this.tell("canplay");
-    if (!this.paused) this.tell("playing");
+  /** There is a frame to show: what that means goes to `news`. */
+  private settle(news: string[]): void {
+    const { waits, seeking } = this;
+    this.waits = this.seeking = false;
+    if (seeking) news.push("seeked");
+    if (waits && !this.toldCanPlay) news.push("canplay");
+    this.toldCanPlay = true;
+    if (waits && !this.paused) news.push("playing");
   }
 
   private judge(wanted: number): void {

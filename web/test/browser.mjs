@@ -53,20 +53,24 @@ const passed = (text) => console.log(`ok ${text}`);
 
 try {
   let page = await open();
-  await page.waitForFunction(() => tvgPlayer.frame?.number > 5);
+  await page.waitForFunction(() => tvgPlayer.frame?.number > 3);
   passed("it plays by itself");
+  const drawn = await page.locator("#view").screenshot();
   const frames = await page.evaluate(() => Math.round(tvgPlayer.duration * tvgPlayer.frameRate));
-  assert.ok(frames > 10);
+  
   await page.focus("#view");
   await page.keyboard.press("k");
   assert.ok(await page.evaluate(() => tvgPlayer.paused));
-  await page.fill("#scrub", String(frames - 8));
-  await page.waitForFunction((frame) => !tvgPlayer.seeking && tvgPlayer.frame.number === frame, frames - 8);
+  await page.fill("#scrub", String(frames - 3));
+  await page.waitForFunction((frame) => !tvgPlayer.seeking && tvgPlayer.frame.number === frame, frames - 3);
   passed("it goes where the bar is put");
+  await page.waitForTimeout(300);
+  assert.ok(!drawn.equals(await page.locator("#view").screenshot()), "two frames look the same");
+  passed("what it draws changes with the frame");
   await picture(page, "light");
   await page.focus("#view");
   await page.keyboard.press(".");
-  await page.waitForFunction((frame) => tvgPlayer.frame.number === frame, frames - 7);
+  await page.waitForFunction((frame) => tvgPlayer.frame.number === frame, frames - 2);
   passed("keys step through frames");
   await page.keyboard.press("k");
   await page.waitForFunction(() => tvgPlayer.frame.lap > 0);
@@ -74,7 +78,7 @@ try {
   await page.close();
 
   page = await open({ colorScheme: "dark" });
-  await page.waitForFunction(() => tvgPlayer.frame?.number > 5);
+  await page.waitForFunction(() => tvgPlayer.frame?.number > 3);
   await page.check("#wire");
   await page.waitForTimeout(300);
   await picture(page, "dark");
