@@ -1,5 +1,7 @@
 import { errorCodeName, TvgError, type TvgErrorCode } from "./errors.js";
+import { writeLimits } from "./limits.js";
 import type { TvgModule } from "./module.js";
+import { kDomains, kEvents, kKinds, kModes } from "./names.js";
 import * as layout from "./structures.js";
 import { Structure, textAt } from "./structures.js";
 import type {
@@ -16,21 +18,6 @@ import type {
   View,
 } from "./types.js";
 
-const kEvents: readonly DecoderEvent[] = [
-  "need-bytes",
-  "head",
-  "metadata",
-  "mesh",
-  "gop",
-  "frame",
-  "damage",
-  "end",
-  "error",
-  "data",
-];
-const kKinds = ["texcoord", "normal", "colour", "generic"] as const;
-const kDomains = ["vertex", "corner", "part"] as const;
-const kModes = ["elp", "basis", "lossless"] as const;
 /** A stream's last bytes, by which its index is found. */
 export const kTailBytes = 28;
 
@@ -412,27 +399,4 @@ export class Decoder {
 
 function outOfMemory(): TvgError {
   return new TvgError("out-of-memory", "there is no memory for a decoder");
-}
-
-const kLimitPlaces = [
-  ["vertices", 4],
-  ["faces", 8],
-  ["framesPerGop", 12],
-  ["packetBytes", 16],
-  ["meshes", 32],
-  ["meshBytes", 36],
-  ["planBytes", 40],
-  ["components", 44],
-  ["plans", 48],
-  ["propertyBytes", 52],
-] as const;
-
-function writeLimits(structure: Structure, limits: DecoderLimits): void {
-  for (const [name, at] of kLimitPlaces) {
-    const value = limits[name];
-    if (value !== undefined) structure.setU32(at, Math.min(Math.max(0, Math.floor(value)), 0xffffffff));
-  }
-  if (limits.memoryBytes !== undefined) {
-    structure.setU64(24, BigInt(Math.max(0, Math.floor(limits.memoryBytes))));
-  }
 }

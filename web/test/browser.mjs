@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 
 const [folder, streamFile] = process.argv.slice(2);
 const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
@@ -49,6 +50,17 @@ async function open(options = {}) {
 const picture = async (page, name) => {
   if (process.env.SCREENSHOTS) await page.screenshot({ path: join(process.env.SCREENSHOTS, `${name}.png`) });
 };
+/** The bits of a frame's positions as the package decodes them here. */
+async function frameInNode(number) {
+  const { TvgStream } = await import(pathToFileURL(join(folder, "../dist/index.js")).href);
+  const decoded = await TvgStream.open(new Uint8Array(whole));
+  decoded.seek(number);
+  while ((await decoded.next()) !== "frame");
+  const positions = new Float32Array(3 * decoded.decoder.view().vertexCount);
+  decoded.decoder.copyViewPositions(positions);
+  decoded.dispose();
+  return Array.from(new Uint32Array(positions.buffer));
+}
 const passed = (text) => console.log(`ok ${text}`);
 
 try {
@@ -64,6 +76,9 @@ try {
   await page.fill("#scrub", String(frames - 3));
   await page.waitForFunction((frame) => !tvgPlayer.seeking && tvgPlayer.frame.number === frame, frames - 3);
   passed("it goes where the bar is put");
+  const shown = await page.evaluate(() => Array.from(new Uint32Array(tvgPlayer.frame.positions.buffer)));
+  assert.deepEqual(shown, await frameInNode(frames - 3));
+  passed("its frame is Node's, bit for bit");
   await page.waitForTimeout(300);
   assert.ok(!drawn.equals(await page.locator("#view").screenshot()), "two frames look the same");
   passed("what it draws changes with the frame");
