@@ -18,9 +18,6 @@ import type {
   View,
 } from "./types.js";
 
-/** A stream's last bytes, by which its index is found. */
-export const kTailBytes = 28;
-
 /**
  * The decoder of tvg.h: bytes go in as they arrive, events come out, frames are written into the caller's arrays. It
  * opens no connection; `TvgStream` does that. Every function throws `TvgError`; `dispose` gives the memory back.

@@ -16,3 +16,6 @@ export const kEvents: readonly DecoderEvent[] = [
 export const kKinds = ["texcoord", "normal", "colour", "generic"] as const;
 export const kDomains = ["vertex", "corner", "part"] as const;
 export const kModes = ["elp", "basis", "lossless"] as const;
+
+/** A stream's last bytes, by which its index is found. */
+export const kTailBytes = 28;

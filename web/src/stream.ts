@@ -1,7 +1,8 @@
 import { type ByteSource, type FetchOptions, openSource, type StreamSource } from "./byte_source.js";
-import { Decoder, kTailBytes } from "./decoder.js";
+import { Decoder } from "./decoder.js";
 import { TvgError } from "./errors.js";
 import { TvgModule } from "./module.js";
+import { kTailBytes } from "./names.js";
 import type { DamageInfo, DecoderLimits } from "./types.js";
 
 export interface StreamOptions extends FetchOptions {
