@@ -21,6 +21,7 @@ void add_verify_command(CLI::App& tool);
 void add_compare_command(CLI::App& tool);
 
 // Commands that show streams: player/, and the one that offers them to others: server/.
+void add_page_command(CLI::App& tool);
 void add_play_command(CLI::App& tool);
 void add_render_command(CLI::App& tool);
 void add_serve_command(CLI::App& tool);

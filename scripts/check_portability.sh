@@ -7,7 +7,7 @@
 #   aarch64                           64 bits of ARM, under qemu
 #   s390x                             a machine that stores the most significant byte first, under qemu
 #   mingw                             Windows, under wine
-#   wasm                              WebAssembly made for size, under Node
+#   wasm                              WebAssembly, under Node, and the npm package around it
 #   size                              made for size, this machine
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -82,9 +82,17 @@ summary() {
   sed -n 's/; the budget is .*//p' "$log" | sed 's/^.*\///' | tr '\n' ' '
 }
 
+# What the package for the web has beside its core needs three.js from npm's registry.
+prepare_web() {
+  [ ! -d web/node_modules/three ] || return 0
+  (cd web && npm ci --silent --ignore-scripts --no-audit --no-fund) >/dev/null 2>&1 ||
+    echo "wasm: npm ci failed in web/, so tvg/three and the page are left out"
+}
+
 mkdir -p build/portability
 failed=()
 for configuration in "${wanted[@]}"; do
+  [ "$configuration" != wasm ] || prepare_web
   [ "$configuration" != mingw ] || prepare_wine || true
   check "$configuration" || { failed+=("$configuration") && echo "$configuration FAILED"; }
 done

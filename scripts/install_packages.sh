@@ -13,7 +13,8 @@ bench=(libbenchmark-dev libdraco-dev)
 check=(clang clang-format clang-tidy libclang-rt-14-dev)
 # Without g++-multilib, which Debian does not let stand beside compilers for other machines.
 portability=(cmake g++ ninja-build pkg-config libxxhash-dev clang g++-12-multilib g++-aarch64-linux-gnu
-  g++-s390x-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 emscripten nodejs)
+  g++-s390x-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 emscripten nodejs
+  node-typescript)
 
 wanted=()
 for group in "$@"; do

@@ -1,0 +1,50 @@
+import type { StreamSource } from "./byte_source.js";
+import type { TvgErrorCode } from "./errors.js";
+import type { DamageInfo, DecoderLimits, PartInfo, StreamInfo, View } from "./types.js";
+
+/** What a feed is told of the mesh of the frames that follow, ready to be drawn. */
+export interface FeedMesh extends View {
+  parts: PartInfo[];
+  /** Those that do not change from frame to frame, [render vertex][component]. */
+  attributes: FeedAttribute[];
+}
+
+export interface FeedAttribute {
+  kind: "texcoord" | "normal" | "colour" | "generic";
+  name: string;
+  components: number;
+  values: Float32Array;
+}
+
+export interface FeedFrame {
+  /** How many seeks came before it, and how often the stream had been played through since the last. */
+  turn: number;
+  lap: number;
+  number: number;
+  /** [render vertex][xyz]. */
+  positions: Float32Array;
+  /** Unit normals where the mesh stores none. */
+  normals?: Float32Array;
+}
+
+export type FeedRequest =
+  | {
+      type: "open";
+      id: number;
+      source: StreamSource;
+      code: WebAssembly.Module;
+      limits?: DecoderLimits;
+      headers?: Record<string, string>;
+    }
+  | { type: "seek"; id: number; frame: number; turn: number }
+  | { type: "take"; id: number; frames: number }
+  | { type: "loop"; id: number; on: boolean }
+  | { type: "close"; id: number };
+
+export type FeedAnswer =
+  | { type: "head"; id: number; info: StreamInfo; frameRate: number; metadata: [string, string][] }
+  | { type: "mesh"; id: number; mesh: FeedMesh }
+  | { type: "frame"; id: number; frame: FeedFrame }
+  | { type: "damage"; id: number; damage: DamageInfo }
+  | { type: "end"; id: number; turn: number; frameCount: number }
+  | { type: "error"; id: number; code: TvgErrorCode; message: string };
