@@ -18,7 +18,7 @@ define BUILD
 @if [ -t 1 ]; then cmake --build $(1) $(2); else cmake --build $(1) $(2) -- --quiet; fi
 endef
 
-.PHONY: build demo test bench figures format check-format lint sanitize fuzz portability clean
+.PHONY: build demo test web bench figures format check-format lint sanitize fuzz portability clean
 .NOTPARALLEL:
 
 build:
@@ -32,6 +32,16 @@ demo: build
 test: build
 	@scripts/install_packages.sh test
 	@scripts/run_tests.sh build/release
+
+# The npm package, and the player's files for the pages of tvg page and tvg serve.
+web: export NODE_PATH ?= /usr/share/nodejs
+web:
+	@scripts/install_packages.sh web
+	@cd web && npm ci --silent --ignore-scripts --no-audit --no-fund
+	@$(CONFIGURE) wasm -DTVG_BUILD_TESTS=OFF >/dev/null
+	$(call BUILD,build/wasm,--target tvg_web)
+	@cd build/wasm && npm pack --silent ./web
+	@echo "The package is build/wasm/tvg-*.tgz; tvg page and tvg serve find the player in build/wasm/web/page"
 
 bench:
 	@scripts/install_packages.sh build bench

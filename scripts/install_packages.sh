@@ -1,6 +1,6 @@
 #!/bin/bash
-# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, test, bench, check, portability) are
-# installed.
+# install_packages.sh GROUP...: makes sure the Debian packages of the groups (build, test, bench, check, portability, web)
+# are installed.
 # Does nothing when all are there; as root it installs the missing ones; otherwise it lists them and fails.
 set -euo pipefail
 
@@ -15,6 +15,9 @@ check=(clang clang-format clang-tidy libclang-rt-14-dev)
 portability=(cmake g++ ninja-build pkg-config libxxhash-dev clang g++-12-multilib g++-aarch64-linux-gnu
   g++-s390x-linux-gnu qemu-user g++-mingw-w64-x86-64-posix wine64 emscripten nodejs
   node-typescript)
+# Node may come from elsewhere, with an npm of its own that Debian's does not go with.
+web=(cmake g++ ninja-build pkg-config libxxhash-dev emscripten node-typescript)
+command -v npm >/dev/null || web+=(nodejs npm)
 
 wanted=()
 for group in "$@"; do
@@ -24,7 +27,8 @@ for group in "$@"; do
     bench) wanted+=("${bench[@]}") ;;
     check) wanted+=("${check[@]}") ;;
     portability) wanted+=("${portability[@]}") ;;
-    *) echo "install_packages.sh: no group '$group' (build, test, bench, check, portability)" >&2; exit 1 ;;
+    web) wanted+=("${web[@]}") ;;
+    *) echo "install_packages.sh: no group '$group' (build, test, bench, check, portability, web)" >&2; exit 1 ;;
   esac
 done
 
