@@ -11,6 +11,7 @@ namespace tvg::cli {
 // Commands that make streams, and the one that shows what encoding goes by: encoder/.
 void add_encode_command(CLI::App& tool);
 void add_join_command(CLI::App& tool);
+void add_ladder_command(CLI::App& tool);
 void add_measure_command(CLI::App& tool);
 void add_simplify_command(CLI::App& tool);
 
@@ -20,7 +21,8 @@ void add_info_command(CLI::App& tool);
 void add_verify_command(CLI::App& tool);
 void add_compare_command(CLI::App& tool);
 
-// Commands that show streams: player/, and the one that offers them to others: server/.
+// Commands that show streams: player/ and the player of web/, and the one that offers them to others:
+// server/.
 void add_page_command(CLI::App& tool);
 void add_play_command(CLI::App& tool);
 void add_render_command(CLI::App& tool);

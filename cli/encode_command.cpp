@@ -1,7 +1,5 @@
 #include "cli/commands.hpp"
-#include "cli/input_options.hpp"
-#include "cli/level_options.hpp"
-#include "cli/measure_options.hpp"
+#include "cli/encode_job.hpp"
 #include "encoder/live/live_encoding.hpp"
 #include "encoder/live/stream_output.hpp"
 #include "tool/option_values.hpp"
@@ -10,155 +8,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <memory>
-#include <thread>
-
-#include <tvg/encoder.hpp>
-#include <tvg/metrics.hpp>
 
 namespace tvg::cli {
 
 namespace {
 
-constexpr int kMostBits = 24;
-constexpr int kMostThreads = 1024;
-constexpr std::uint32_t kLiveGopFrames = 15;  // who joins a live stream waits half a second at most
-constexpr std::uint32_t kBasisGopFrames = 32;
 constexpr double kUsualFrameRate = 30;
 
-struct EncodeArguments : InputArguments {
+struct EncodeCommandArguments : EncodeArguments {
   std::string output;
-  std::string bits = "11";
-  std::string step;
-  MeasureArguments measure;
-  LevelArguments levels;
-  std::string predictor = "elp";
-  std::string mode = "elp";
-  bool lossless = false;
-  std::optional<std::uint32_t> gop;
-  std::string period;
-  std::string max_error;
-  int effort = 5;
-  unsigned threads = 0;
-  bool reorder = false;
-  bool keep_order = false;
-  std::uint32_t max_vertices = 0;
-  std::uint32_t max_faces = 0;
-  std::uint32_t max_meshes = 1;
-  bool live = false;
   bool loop = false;
-  bool quiet = false;
-  std::string name;
-  std::string units;
-  std::string up;
-  std::vector<std::string> metadata;
 };
 
-Metadata metadata_of(const EncodeArguments& arguments) {
-  Metadata metadata;
-  for (const std::string& entry : arguments.metadata) {
-    const std::size_t equals = entry.find('=');
-    if (equals == 0 || equals == std::string::npos) {
-      throw ToolError(ExitStatus::kUsage, fmt::format("--meta {}: write it as KEY=VALUE", entry));
-    }
-    metadata[entry.substr(0, equals)] = entry.substr(equals + 1);
-  }
-  if (const auto fps = metadata.find("fps"); fps != metadata.end() && !parse_frame_rate(fps->second)) {
-    fail_option("--meta", "fps=" + fps->second, kFrameRateHelp);
-  }
-  for (const auto& [key, value] : {std::pair("fps", &arguments.fps), std::pair("name", &arguments.name),
-                                   std::pair("units", &arguments.units), std::pair("up", &arguments.up)}) {
-    if (!value->empty()) metadata[key] = *value;
-  }
-  return metadata;
-}
-
-/// Frames of a period: a number, or all there are.
-std::uint32_t parse_period(const std::string& text) {
-  constexpr std::uint32_t kMost = 65536;
-  if (text == "all") return kMost;
-  std::uint32_t frames = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), frames);
-  if (error != std::errc() || end != text.data() + text.size() || frames == 0 || frames > kMost)
-    fail_option("--period", text, "write a number of frames from 1 to 65536, or all");
-  return frames;
-}
-
-/// A length in the mesh's units, or a share of the diagonal: 0.05%.
-ErrorBound parse_error_bound(const std::string& text) {
-  ErrorBound bound;
-  const bool share = !text.empty() && text.back() == '%';
-  const char* const last = text.data() + text.size() - (share ? 1 : 0);
-  const auto [end, error] = std::from_chars(text.data(), last, bound.value);
-  if (error != std::errc() || end != last || !(bound.value > 0) || !std::isfinite(bound.value))
-    fail_option("--max-error", text,
-                "write a length in the mesh's units (0.01), or a share of the diagonal (0.05%)");
-  bound.of_diagonal = share;
-  if (share) bound.value /= 100;
-  return bound;
-}
-
-/// Mode elp and mode basis each have options that mean nothing to the other.
-void check_mode(const EncodeArguments& arguments) {
-  if (arguments.mode == "basis" && arguments.predictor != "elp")
-    throw ToolError(ExitStatus::kUsage, "--predictor is of --mode elp: a basis has none to choose from");
-  if (arguments.mode != "basis" && !arguments.period.empty())
-    throw ToolError(ExitStatus::kUsage,
-                    "--period needs --mode basis, whose planes the frames of a period share");
-}
-
-EncodeOptions options_of(const EncodeArguments& arguments) {
-  check_mode(arguments);
-  EncodeOptions options;
-  options.mode = arguments.lossless ? Mode::kLossless : arguments.mode == "basis" ? Mode::kBasis : Mode::kElp;
-  options.effort = arguments.effort;
-  if (!arguments.period.empty()) options.period_frames = parse_period(arguments.period);
-  if (!arguments.max_error.empty()) options.max_error = parse_error_bound(arguments.max_error);
-  if (arguments.step.empty()) {
-    const BitPair bits = parse_bits(arguments.bits);
-    options.fine_bits = bits.fine;
-    options.coarse_bits = bits.coarse;
-  } else {
-    const StepPair step = parse_step(arguments.step);
-    options.step = step.fine;
-    options.fine_bits = kMostBits;
-    options.coarse_bits = kMostBits - step.shift;
-  }
-  if (arguments.measure.any() && options.fine_bits == options.coarse_bits) {
-    throw ToolError(ExitStatus::kUsage,
-                    "--measure, --important and what goes with them need two resolutions, for example --bits "
-                    "13:11");
-  }
-  options.importance = importance_of(arguments.measure);
-  options.predictor = std::map<std::string, Predictor>{
-      {"space", Predictor::kSpace},
-      {"time", Predictor::kTime},
-      {"elp", Predictor::kElp},
-      {"pyramid", Predictor::kPyramid},
-      {"auto",
-       Predictor::kAuto}}.at(arguments.predictor);
-  const std::uint32_t usual_gop = options.mode == Mode::kBasis ? kBasisGopFrames : options.gop_frames;
-  options.gop_frames = arguments.gop.value_or(arguments.live ? kLiveGopFrames : usual_gop);
-  options.keep_vertex_order = !arguments.reorder;
-  options.suit_captured = !arguments.keep_order;
-  options.max_vertices = arguments.max_vertices;
-  options.max_faces = arguments.max_faces;
-  options.max_meshes = arguments.max_meshes;
-  options.threads =
-      arguments.threads != 0 ? arguments.threads : std::max(1u, std::thread::hardware_concurrency());
-  if (arguments.live && arguments.period.empty()) options.period_frames = options.gop_frames;
-  if (arguments.live) options.threads = 1;  // with more, a GOP would wait for those that follow it
-  options.metadata = metadata_of(arguments);
-  options.attribute_bits = attribute_bits(arguments);
-  return options;
-}
-
 /// How the frames come: a pipe's when they come, others at their rate.
-LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata) {
+LiveInput live_input(const EncodeCommandArguments& arguments, const Metadata& metadata) {
   LiveInput input;
   input.open_ended =
       std::find(arguments.inputs.begin(), arguments.inputs.end(), "-") != arguments.inputs.end();
@@ -178,123 +43,41 @@ LiveInput live_input(const EncodeArguments& arguments, const Metadata& metadata)
   return input;
 }
 
-/// To three digits, so that what is said of a bound stays one.
-double rounded_up(double bound) {
-  const double unit = std::pow(10, std::floor(std::log10(bound)) - 2);
-  return std::ceil(bound / unit) * unit;
+/// Sends each GOP as soon as it is complete.
+EncodeReport encode_as_it_comes(const EncodeCommandArguments& arguments, const EncodeOptions& options,
+                                FrameSource& source, const ByteSink& sink) {
+  const LiveInput live = live_input(arguments, source.metadata());
+  ProgressBar bar("encoding", arguments.quiet);
+  const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
+    bar.update(frames, total);
+  };
+  Result<LiveReport> report = encode_live(source, options, live, sink, progress);
+  if (!report) throw tool_error(input_names(arguments), report.error());
+  bar.clear();
+  if (report->cut_short && !arguments.quiet)
+    fmt::print(stderr, "note: {}: that frame is left out\n", *report->cut_short);
+  report->box_of_each_gop = false;  // as is expected of what comes live
+  return *report;
 }
 
-void print_report(const EncodeArguments& arguments, const EncodeReport& report) {
-  if (report.box_of_each_gop && !arguments.live) {
-    fmt::print(stderr, "note: the input can be read only once, so each GOP has a bounding box of its own\n");
-  }
-  if (report.captured) {
-    fmt::print(stderr,
-               "note: each frame has a mesh of its own, so the vertex order is given up and frames are coded "
-               "by themselves (--keep-order keeps it)\n");
-  }
-  if (report.polygons_left_out > 0) {
-    fmt::print(stderr,
-               "note: {} polygons come back as triangles: they are no fans of triangles side by side\n",
-               report.polygons_left_out);
-  }
-  fmt::print(
-      stderr, "{}: {} frames of {} in {} GOPs, {} ({:.3f} bits per coordinate, {:.1f} times smaller)\n",
-      arguments.output == "-" ? "standard output" : arguments.output, report.frames,
-      report.meshes == 1 ? fmt::format("{} vertices", report.vertices)
-                         : fmt::format("{} meshes", report.meshes),
-      report.gops, readable_bytes(report.bytes), bits_per_coordinate(report.bytes, report.vertex_frames, 1),
-      12 * static_cast<double>(report.vertex_frames) / static_cast<double>(report.bytes));
-  if (report.largest_error > 0)
-    fmt::print(stderr, "no coordinate is off by more than {:.3g}\n", rounded_up(report.largest_error));
-}
-
-Result<LiveReport> encode_whole(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
-                                const EncodeProgress& progress) {
-  const Result<EncodeReport> report = encode(source, options, sink, progress);
-  if (!report) return report.error();
-  return LiveReport{*report, std::nullopt};
-}
-
-void run_encode(const EncodeArguments& arguments) {
-  EncodeOptions options = options_of(arguments);
+void run_encode(const EncodeCommandArguments& arguments) {
+  EncodeOptions options = encode_options(arguments);
   files_of(arguments, arguments.measure.weights()).check_output(arguments.output);
-  const OpenedInput opened = open_input(arguments, arguments.live);
-  options.first_frame = opened.first_frame;
-  check_measure(arguments.measure, options.importance, *opened.source, arguments.inputs);
-  if (!arguments.quiet) print_notes(opened);
-  LevelArguments levels = arguments.levels;
-  levels.quiet = arguments.quiet;
-  if (arguments.live && levels.any())
+  if (arguments.live && arguments.levels.any())
     throw ToolError(ExitStatus::kUsage,
                     "--levels simplify and --lod need all frames in advance: not with --live");
-  options.levels = simplified_levels(*opened.source, levels, options.importance, input_names(arguments));
-  std::optional<LiveInput> live;
-  if (arguments.live) live = live_input(arguments, opened.source->metadata());
-
+  const OpenedInput opened = open_for_encoding(arguments, options);
   const std::unique_ptr<StreamOutput> output = open_stream_output(arguments.output, arguments.live);
   const auto sink = [&output](std::span<const std::uint8_t> bytes) {
     output->write(bytes);
     return Status();
   };
-  ProgressBar bar("encoding", arguments.quiet);
-  const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
-    bar.update(frames, total);
-  };
-  const Result<LiveReport> report = live ? encode_live(*opened.source, options, *live, sink, progress)
-                                         : encode_whole(*opened.source, options, sink, progress);
-  if (!report) throw tool_error(input_names(arguments), report.error());
+  const EncodeReport report = arguments.live ? encode_as_it_comes(arguments, options, *opened.source, sink)
+                                             : encode_frames(*opened.source, options, sink, arguments);
   output->finish();
-
   if (arguments.quiet) return;
-  bar.clear();
   print_later_notes(opened);
-  if (report->cut_short) fmt::print(stderr, "note: {}: that frame is left out\n", *report->cut_short);
-  print_report(arguments, *report);
-}
-
-/// How positions are coded: what there is to choose of it, or that nothing is.
-void add_coding_options(CLI::App& command, EncodeArguments& arguments) {
-  const std::size_t before = command.get_options().size();
-  auto* bits = command
-                   .add_option("--bits", arguments.bits,
-                               "bits per coordinate of important and of other vertices (13:11), or of all")
-                   ->capture_default_str();
-  command
-      .add_option("--step", arguments.step,
-                  "instead of bits: lattice steps in the mesh's units (0.01:0.04), or one for all; no "
-                  "coordinate is off by more than half a step, but for the rounding of decoded positions "
-                  "to float32")
-      ->excludes(bits);
-  command
-      .add_option(
-          "--max-error", arguments.max_error,
-          "instead of bits: what no coordinate may be off by more, in the mesh's units (0.01) or as a "
-          "share of the diagonal of the sequence's box (0.05%)")
-      ->excludes(bits)
-      ->excludes("--step");
-  add_measure_options(command, arguments.measure);
-  command
-      .add_option("--mode", arguments.mode,
-                  "how frames are coded: elp, each from those before it; or basis, sums of planes that a "
-                  "period shares, for far smaller files")
-      ->check(CLI::IsMember({"elp", "basis"}))
-      ->capture_default_str();
-  command.add_option("--period", arguments.period,
-                     "in mode basis: frames that share planes, or all; more make smaller files that take "
-                     "longer to begin (default 128; with --live the GOP)");
-  command
-      .add_option("--predictor", arguments.predictor,
-                  "what vertices are predicted from: elp as the paper has it, pyramid for "
-                  "smaller files, auto for the smaller of the two in each frame")
-      ->check(CLI::IsMember({"space", "time", "elp", "pyramid", "auto"}))
-      ->capture_default_str();
-  const std::vector<CLI::Option*> choices = command.get_options();
-  auto* lossless = command.add_flag(
-      "--lossless", arguments.lossless,
-      "keep every bit of the float32 positions; there is nothing to choose then of bits, step, "
-      "importance, mode and predictor");
-  for (std::size_t i = before; i < choices.size(); ++i) lossless->excludes(choices[i]);
+  print_encode_report(arguments.output == "-" ? "standard output" : arguments.output, report);
 }
 
 /// What the head says of meshes to come, where the input cannot be looked through before.
@@ -319,54 +102,22 @@ void add_mesh_bounds(CLI::App& command, EncodeArguments& arguments) {
 }  // namespace
 
 void add_encode_command(CLI::App& tool) {
-  auto arguments = std::make_shared<EncodeArguments>();
+  auto arguments = std::make_shared<EncodeCommandArguments>();
   CLI::App& command = *tool.add_subcommand("encode", "Make a .tvg of a mesh sequence");
-  add_input_options(command, *arguments);
+  add_encode_options(command, *arguments);
   command
       .add_option("-o,--output", arguments->output,
                   "the stream to write; - for standard output; an http or https URL for an upload by PUT")
       ->required();
-  add_coding_options(command, *arguments);
-  command
-      .add_option(
-          "--effort", arguments->effort,
-          "1 (fast) to 9 (small): what mode basis tries, and neighbours that the pyramid predicts from")
-      ->check(CLI::Range(1, 9))
-      ->capture_default_str();
-  command
-      .add_option("--gop", arguments->gop,
-                  "frames that can be decoded on their own (default 50; in mode basis 32; with --live 15)")
-      ->check(CLI::Range(1, 65536));
-  add_level_options(command, arguments->levels);
-  add_property_options(command, *arguments);
-  auto* reorder = command.add_flag("--reorder", arguments->reorder,
-                                   "give up the vertex order, which saves about a byte per vertex");
-  command
-      .add_flag("--keep-order", arguments->keep_order,
-                "keep the vertex order, and code frames as otherwise, even where each has a mesh of its own")
-      ->excludes(reorder);
   add_mesh_bounds(command, *arguments);
-  command.add_option("--fps", arguments->fps,
-                     "frames per second, kept with the stream (30, 30000/1001); a scene is sampled at it "
-                     "(default 30)");
-  command.add_option("--name", arguments->name, "a name, kept with the stream");
-  command.add_option("--units", arguments->units, "length of one unit (m, cm, ...), kept with the stream");
-  command.add_option("--up", arguments->up, "the axis that is up, kept with the stream")
-      ->check(CLI::IsMember({"x", "y", "z"}));
-  command.add_option("--meta", arguments->metadata, "KEY=VALUE to keep with the stream; may be repeated");
-  auto* threads =
-      command
-          .add_option("--threads", arguments->threads, "GOPs encoded at a time (default: one per processor)")
-          ->check(CLI::Range(1, kMostThreads));
   auto* live =
       command
           .add_flag("--live", arguments->live,
                     "send each GOP as soon as it is complete: frames from a pipe as they come, until "
                     "it ends; those of a file at its frame rate (--fps, or 30)")
-          ->excludes(threads);
+          ->excludes("--threads");
   command.add_flag("--loop", arguments->loop, "with --live: begin the file again at its end, until stopped")
       ->needs(live);
-  command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] { run_encode(*arguments); });
 }
 

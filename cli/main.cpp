@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   add_measure_command(tool);
   add_simplify_command(tool);
   add_join_command(tool);
+  add_ladder_command(tool);
   add_page_command(tool);
 #ifdef TVG_HAS_PLAYER
   add_play_command(tool);

@@ -9,13 +9,16 @@ namespace tvg::cli {
 /// The frames of a source on some of its vertices, or at places of its surface.
 class SimplifiedSource final : public FrameSource {
  public:
-  /// Both must outlive it, as below. The original is to be rewound by the caller.
-  SimplifiedSource(FrameSource& original, const SimplifiedMesh& simplified)
-      : SimplifiedSource(original, simplified.mesh, simplified.vertices, {}) {}
+  enum class Keep { kPositions, kAttributes };
+
+  /// Both must outlive it, as below. The original is to be rewound by the caller. kAttributes: those of
+  /// vertices, where they do not change from frame to frame, stay.
+  SimplifiedSource(FrameSource& original, const SimplifiedMesh& simplified, Keep keep = Keep::kPositions);
   SimplifiedSource(FrameSource& original, const Remesh& remeshed)
       : SimplifiedSource(original, remeshed.mesh, {}, remeshed.places) {}
 
   const Mesh& mesh() const override { return mesh_; }
+  const MeshProperties& properties() const override { return properties_; }
   Metadata metadata() const override { return original_.metadata(); }
   std::optional<std::uint64_t> frame_count() const override { return original_.frame_count(); }
   Result<bool> read_frame(std::span<float> positions) override;
@@ -39,6 +42,7 @@ class SimplifiedSource final : public FrameSource {
   std::span<const std::uint32_t> vertices_;  // of the original; empty where there are places
   std::span<const SurfacePlace> places_;
   FramePositions frame_;
+  MeshProperties properties_;
 };
 
 /// The positions of `vertices` ([vertex of the result]) among all of a mesh, [vertex][xyz].

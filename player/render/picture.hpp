@@ -32,6 +32,10 @@ class PicturePainter {
 
   /// Smooth or flat, from the next picture on.
   void set_shading(Shading shading) { style_.shading = shading; }
+  /// One colour behind everything, from the next picture on.
+  void set_background(const cli::Colour& colour) {
+    style_.background_top = style_.background_bottom = colour;
+  }
   /// What all pictures show, and from where.
   void set_scene(const BoundingBox& bounds, UpAxis up, const OrbitCamera& camera);
 

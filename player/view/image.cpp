@@ -38,22 +38,30 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
   return rgb;
 }
 
-}  // namespace
-
-void write_png(const std::string& path, const Image& image) {
-  const std::vector<std::uint8_t> rgb = without_alpha(image);
+/// `pixels` in the PNG's format.
+std::string png_bytes(const Image& image, png_uint_32 format, const std::uint8_t* pixels) {
   PngImage png;
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  std::vector<std::uint8_t> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
+  png.format = format;
+  std::string bytes(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
   png_alloc_size_t size = bytes.size();
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb.data(), 0, nullptr) == 0) {
-    throw cli::ToolError(cli::ExitStatus::kOther,
-                         fmt::format("{}: cannot be coded as PNG: {}", path, png.message));
-  }
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, pixels, 0, nullptr) == 0)
+    throw cli::ToolError(cli::ExitStatus::kOther, fmt::format("no PNG could be made: {}", png.message));
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+std::string png_with_alpha(const Image& image) {
+  return png_bytes(image, PNG_FORMAT_RGBA, image.pixels.data());
+}
+
+void write_png(const std::string& path, const Image& image) {
+  const std::string bytes = png_bytes(image, PNG_FORMAT_RGB, without_alpha(image).data());
   cli::AtomicFile file(path);
-  file.write(bytes.data(), size);
+  file.write(bytes);
   file.finish();
 }
 

@@ -17,6 +17,9 @@ struct Image {
   }
 };
 
+/// The bytes of a PNG with alpha, without time or names. Throws ToolError (kOther) where that fails.
+std::string png_with_alpha(const Image& image);
+
 /// Writes a PNG (RGB: alpha is dropped) that holds no time and no names, so that one image always gives the
 /// same bytes. The file appears when it is complete. "-" is standard output. Throws ToolError (kIo).
 void write_png(const std::string& path, const Image& image);

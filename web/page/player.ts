@@ -2,6 +2,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { LocalHost, TvgPlayer, WorkerHost } from "../src/index.js";
 import { TVGMesh } from "../src/three/tvg_mesh.js";
+import { decoderSource, embeddedFile } from "./embedded.js";
 
 /** The worker's script, which the bundler puts here: the page needs no further file for it. */
 declare const WORKER_SCRIPT: string;
@@ -26,10 +27,8 @@ function newHost(): WorkerHost | LocalHost {
   }
 }
 
-const player = new TvgPlayer(root.dataset.stream ?? "clip.tvg", {
-  host: newHost(),
-  wasm: new URL("tvg.wasm", document.baseURI),
-});
+const streamName = root.dataset.stream ?? "clip.tvg";
+const player = new TvgPlayer(embeddedFile(streamName) ?? streamName, { host: newHost(), wasm: decoderSource() });
 const mesh = new TVGMesh(player);
 
 const scene = new THREE.Scene();

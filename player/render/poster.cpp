@@ -1,0 +1,93 @@
+#include "player/render/poster.hpp"
+
+#include "player/frames/shown_frames.hpp"
+#include "player/render/picture.hpp"
+#include "player/view/look.hpp"
+#include "tool/tool_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace tvg::player {
+
+namespace {
+
+/// Where the page looks from (web/page/player.ts).
+constexpr std::array<double, 3> kPageDirection = {0.5, 0.35, 1};
+constexpr double kPageFieldOfView = 40 * std::numbers::pi / 180;
+constexpr double kPageDistance = 3.1;  // in radii of the ball around the first frame
+constexpr cli::Colour kPageSurface{0.72F, 0.72F, 0.75F};
+
+/// The radius of the ball around the middle of the box that holds all vertices.
+double ball_radius(const FramePositions& positions, const BoundingBox& bounds) {
+  const std::array<double, 3> center = bounds.center();
+  double radius = 0;
+  for (std::size_t v = 0; v + 2 < positions.size(); v += 3) {
+    radius =
+        std::max(radius, std::hypot(double{positions[v]} - center[0], double{positions[v + 1]} - center[1],
+                                    double{positions[v + 2]} - center[2]));
+  }
+  return radius > 0 ? radius : 1;
+}
+
+OrbitCamera page_camera(const FramePositions& positions, const BoundingBox& bounds, UpAxis up) {
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const auto [x, y, z] = kPageDirection;
+  OrbitCamera camera;
+  camera.set_angles({kDegrees * std::atan2(x, z), kDegrees * std::atan2(y, std::hypot(x, z)), 1});
+  camera.fit_height(bounds, up,
+                    2 * kPageDistance * ball_radius(positions, bounds) * std::tan(kPageFieldOfView / 2));
+  return camera;
+}
+
+/// The picture without its background, of what it looks like before black and before white.
+Image without_background(const Image& black, const Image& white) {
+  Image image = black;
+  for (std::size_t i = 0; i + 3 < image.pixels.size(); i += 4) {
+    int seen_through = 255;  // of the white behind it, by the colour that shows the least of it
+    for (std::size_t k = 0; k < 3; ++k)
+      seen_through = std::min(seen_through, std::max(0, white.pixels[i + k] - black.pixels[i + k]));
+    const int alpha = 255 - seen_through;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int colour = alpha == 0 ? 0 : (255 * black.pixels[i + k] + alpha / 2) / alpha;
+      image.pixels[i + k] = static_cast<std::uint8_t>(std::min(255, colour));
+    }
+    image.pixels[i + 3] = static_cast<std::uint8_t>(alpha);
+  }
+  return image;
+}
+
+}  // namespace
+
+Image draw_poster(const std::string& stream, int width, int height) {
+  ShownFramesSpec spec;
+  spec.inputs = {stream};
+  spec.surfaces = true;
+  const std::unique_ptr<ShownFrames> frames = open_stream_frames(spec);
+  ShownFrame frame;
+  do {
+    if (!frames->next(frame))
+      throw cli::ToolError(cli::ExitStatus::kInvalidInput, stream + ": there is no frame to draw");
+  } while (shows_nothing(*frame.mesh));
+
+  Style style;
+  style.surface = kPageSurface;
+  style.shading = shading_of(frames->metadata());
+  PicturePainter painter(width, height, style, false);
+  BoundingBox bounds;
+  bounds.extend(frame.positions);
+  const UpAxis up = up_axis_of(frames->metadata());
+  painter.set_scene(bounds, up, page_camera(frame.positions, bounds, up));
+  std::array<Image, 2> pictures;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    painter.set_background(i == 0 ? cli::Colour{0, 0, 0} : cli::Colour{1, 1, 1});
+    painter.begin();
+    painter.draw(frame, PicturePainter::Which::kShown, cli::ColourMap::kViridis, {0, 0, width, height});
+    pictures[i] = painter.finish();
+  }
+  return without_background(pictures[0], pictures[1]);
+}
+
+}  // namespace tvg::player

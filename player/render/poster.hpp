@@ -1,0 +1,14 @@
+#pragma once
+#include "player/view/image.hpp"
+
+#include <string>
+
+namespace tvg::player {
+
+/// Draws the first frame of a stream that shows anything, as the page of `tvg page` shows it before it plays:
+/// from the same side and as large, on a transparent background, which suits dark pages and light ones.
+/// `stream`: a file. Sizes in pixels. Throws ToolError: kOther where this machine cannot draw, and as
+/// open_frames() does.
+Image draw_poster(const std::string& stream, int width, int height);
+
+}  // namespace tvg::player
