@@ -107,7 +107,7 @@ PageStream copy_ladder(const fs::path& ladder, AtomicFolder& folder) {
   return {kLadderFile, (ladder.parent_path() / files.front()).string()};
 }
 
-void encode_into(const PageArguments& arguments, AtomicFile& file) {
+void encode_into(const PageArguments& arguments, AtomicFile& file, const std::string& name) {
   EncodeOptions options = encode_options(arguments);
   const OpenedInput opened = open_for_encoding(arguments, options);
   const auto sink = [&file](std::span<const std::uint8_t> bytes) {
@@ -118,7 +118,7 @@ void encode_into(const PageArguments& arguments, AtomicFile& file) {
   file.flush();
   if (arguments.quiet) return;
   print_later_notes(opened);
-  print_encode_report(file.path(), report);
+  print_encode_report(name, report);
 }
 
 }  // namespace
@@ -141,13 +141,13 @@ PageStream put_streams(const PageArguments& arguments, AtomicFolder& folder) {
     return {kClip, input};
   }
   AtomicFile& file = folder.add(kClip);
-  encode_into(arguments, file);
+  encode_into(arguments, file, file.path());
   return {kClip, file.temporary_path()};
 }
 
 std::string stream_of(const PageArguments& arguments, AtomicFile& scratch) {
   if (!is_one_stream(arguments)) {
-    encode_into(arguments, scratch);
+    encode_into(arguments, scratch, "the stream");
     return scratch.temporary_path();
   }
   check_takes_no_encoding(arguments);

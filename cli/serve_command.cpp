@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/number_option.hpp"
+#include "cli/player_folder.hpp"
 #include "server/stream_server.hpp"
 #include "tool/tool_error.hpp"
 
@@ -30,11 +31,19 @@ void run_serve(const ServeArguments& arguments) {
 
   server::ServerOptions options = arguments.options;
   options.live = !arguments.no_live;
+  // Only where a folder is named it has to be there: files and live streams need no player.
+  options.player = (options.player.empty() ? find_player_folder({}) : player_folder(options.player)).string();
   options.timeout = std::chrono::milliseconds(static_cast<std::int64_t>(1000 * arguments.timeout));
   if (!arguments.quiet) options.log = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
   server::StreamServer server(options);
   server.start();
   fmt::print("{}/\n", server.url());
+  if (!arguments.quiet && options.player.empty()) {
+    fmt::print(
+        stderr,
+        "note: the player's files are not installed, so pages have no player; they are built with npm ci "
+        "in web/ and the preset wasm (docs/web.md), and --player names the folder they lie in\n");
+  }
   if (options.live && !arguments.quiet) {
     fmt::print(stderr, "serving {}; publish with tvg encode ... --live -o {}/live/NAME; Ctrl-C ends\n",
                options.folder, server.url());
@@ -83,6 +92,8 @@ void add_serve_command(CLI::App& tool) {
       command, "--timeout", {0.1, 3600}, [arguments](double value) { arguments->timeout = value; },
       "seconds a client may take to send a request, the next bytes of an upload, or to read on")
       ->default_str("30");
+  command.add_option("--player", options.player,
+                     "folder of the player's files, where they are not installed with the tool");
   command.add_flag("--no-live", arguments->no_live, "serve files only");
   command.add_flag("-q,--quiet", arguments->quiet, "print the URL and errors only");
   command.footer(

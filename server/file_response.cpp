@@ -85,16 +85,19 @@ std::string_view next_element(std::string_view& list) {
   return element;
 }
 
-bool is_unchanged(const httplib::Request& request, const OpenFile& file) {
-  if (request.has_header("If-None-Match")) {
-    const std::string header = request.get_header_value("If-None-Match");
-    for (std::string_view list = header; !list.empty();) {
-      std::string_view tag = next_element(list);
-      if (tag.starts_with("W/")) tag.remove_prefix(2);
-      if (tag == "*" || tag == file.etag()) return true;
-    }
-    return false;
+/// Whether If-None-Match names the tag.
+bool has_tag(const httplib::Request& request, const std::string& etag) {
+  const std::string header = request.get_header_value("If-None-Match");
+  for (std::string_view list = header; !list.empty();) {
+    std::string_view tag = next_element(list);
+    if (tag.starts_with("W/")) tag.remove_prefix(2);
+    if (tag == "*" || tag == etag) return true;
   }
+  return false;
+}
+
+bool is_unchanged(const httplib::Request& request, const OpenFile& file) {
+  if (request.has_header("If-None-Match")) return has_tag(request, file.etag());
   const auto since = parse_http_date(request.get_header_value("If-Modified-Since"));
   return since && *since >= file.modified();
 }
@@ -215,6 +218,17 @@ void respond_with_file(const fs::path& path, const httplib::Request& request, ht
     }
   }
   set_body(std::move(file), span, content_type_of(path), response);
+}
+
+void respond_with_text(const std::string& text, const std::string& type, const httplib::Request& request,
+                       httplib::Response& response) {
+  std::uint64_t hash = 0xcbf29ce484222325;  // FNV-1a
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  const std::string etag = fmt::format("\"{:x}-{:x}\"", hash, text.size());
+  response.set_header("ETag", etag);
+  response.set_header("Cache-Control", "no-cache");
+  response.status = has_tag(request, etag) ? 304 : 200;
+  if (response.status == 200) response.set_content(text, type);
 }
 
 }  // namespace tvg::server

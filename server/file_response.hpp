@@ -36,4 +36,8 @@ RangeChoice choose_range(std::string_view header, std::uint64_t size);
 void respond_with_file(const std::filesystem::path& file, const httplib::Request& request,
                        httplib::Response& response);
 
+/// Answers GET or HEAD with a text that is made anew each time: 200, or 304 where the client has the same.
+void respond_with_text(const std::string& text, const std::string& type, const httplib::Request& request,
+                       httplib::Response& response);
+
 }  // namespace tvg::server

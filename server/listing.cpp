@@ -30,17 +30,6 @@ std::string iso_date(std::time_t time) {
   return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
 }
 
-/// A path as a URL has it: everything but unreserved characters and slashes as %XX.
-std::string url_of(const std::string& path) {
-  std::string url;
-  for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       std::string_view("-._~/").find(c) != std::string_view::npos;
-    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return url;
-}
-
 std::vector<std::uint8_t> read_at(std::ifstream& file, std::uint64_t offset, std::uint64_t size) {
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   file.clear();
@@ -91,6 +80,16 @@ std::string dump(const nlohmann::json& json) {
 }
 
 }  // namespace
+
+std::string url_of(const std::string& path) {
+  std::string url;
+  for (const char c : path) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return url;
+}
 
 std::string folder_listing(const fs::path& root, const fs::path& folder) {
   // From the root, with slashes at both ends.

@@ -8,6 +8,9 @@
 // What the server says about its content, as JSON.
 namespace tvg::server {
 
+/// A path as a URL has it: everything but unreserved characters and slashes as %XX.
+std::string url_of(const std::string& path);
+
 /// The files and folders of `folder`, which is `root` or below it: for each name, type ("file", "folder"),
 /// size in bytes, modified (ISO 8601, UTC), url; and of a stream frames, vertices (what its head declares)
 /// and fps, as far as its head and index say so. Names that begin with a dot and links that lead out of the

@@ -197,7 +197,11 @@ void LiveRoutes::watch(const httplib::Request& request, httplib::Response& respo
 void LiveRoutes::list(httplib::Response& response) const {
   response.status = 200;
   response.set_header("Cache-Control", "no-store");
-  response.set_content(live_listing(hub_.list()), "application/json");
+  response.set_content(listing(), "application/json");
+}
+
+std::string LiveRoutes::listing() const {
+  return live_listing(hub_.list());
 }
 
 }  // namespace tvg::server

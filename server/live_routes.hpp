@@ -30,6 +30,8 @@ class LiveRoutes {
   void watch(const httplib::Request& request, httplib::Response& response);
   /// Answers GET or HEAD of /live/.
   void list(httplib::Response& response) const;
+  /// The same as text: live_listing().
+  std::string listing() const;
 
   /// Ends all streams; viewers still get their ends.
   void end_all() { hub_.end_all(); }

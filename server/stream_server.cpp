@@ -4,6 +4,8 @@
 #include "server/http_server.hpp"
 #include "server/listing.hpp"
 #include "server/live_routes.hpp"
+#include "server/player_files.hpp"
+#include "server/start_page.hpp"
 #include "tool/tool_error.hpp"
 
 #include <cerrno>
@@ -69,6 +71,7 @@ class StreamServer::Implementation {
   explicit Implementation(ServerOptions options)
       : options_(std::move(options)),
         root_(canonical_folder(options_.folder)),
+        player_(options_.player),
         http_(options_.max_clients, options_.max_per_address, {options_.timeout, options_.now}),
         live_(http_, options_.max_live_streams, relay_limits(options_), options_.timeout, options_.log) {
     add_routes();
@@ -166,28 +169,54 @@ class StreamServer::Implementation {
       live_.list(response);
     } else if (live) {
       live_.watch(request, response);
-    } else {
+    } else if (!player_.answer(request, response)) {
       respond_from_folder(request, response);
     }
     return true;
   }
 
   void respond_from_folder(const httplib::Request& request, httplib::Response& response) const {
-    const auto target = resolve_in_folder(root_, request.path);
+    const bool is_start = request.path == PlayerFiles::kFolder;
+    const auto target = is_start ? root_ : resolve_in_folder(root_, request.path);
     std::error_code error;
     if (!target) {
       response.status = 404;
-    } else if (fs::is_directory(*target, error)) {
+    } else if (!fs::is_directory(*target, error)) {
+      respond_with_file(*target, request, response);
+    } else if (is_start || wants_html(request)) {
+      respond_with_page(*target, is_start, request, response);
+    } else {
       response.status = 200;
       response.set_header("Cache-Control", "no-store");
+      response.set_header("Vary", "Accept");
       response.set_content(folder_listing(root_, *target), "application/json");
-    } else {
-      respond_with_file(*target, request, response);
     }
+  }
+
+  /// A folder for a browser: its own page unless `is_start`, or what is in it.
+  void respond_with_page(const fs::path& folder, bool is_start, const httplib::Request& request,
+                         httplib::Response& response) const {
+    response.set_header("Vary", "Accept");
+    if (!request.path.ends_with('/')) {  // what the page names is beside it
+      response.status = 307;
+      response.set_header("Location", fmt::format("/{}/", url_of(folder.lexically_relative(root_).string())));
+      return;
+    }
+    if (const auto page = resolve_in_folder(root_, request.path + "index.html"); page && !is_start)
+      return respond_with_file(*page, request, response);
+    const bool tells_live = options_.live && folder == root_;
+    response.set_header("Content-Security-Policy",
+                        "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+                        "form-action 'none'");
+    respond_with_text(
+        start_page(folder_listing(root_, folder), tells_live ? std::optional(live_.listing()) : std::nullopt,
+                   player_.available()),
+        "text/html; charset=utf-8", request, response);
   }
 
   const ServerOptions options_;
   const fs::path root_;
+  const PlayerFiles player_;
   HttpServer http_;
   LiveRoutes live_;
   int port_ = -1;

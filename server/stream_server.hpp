@@ -9,6 +9,7 @@ namespace tvg::server {
 
 struct ServerOptions {
   std::string folder;
+  std::string player;  ///< folder of the player's files, which web/ builds; empty: none is offered
   std::string address = "127.0.0.1";
   int port = 8080;               ///< 0: the system picks one
   std::size_t max_clients = 64;  ///< connections at a time, 1 to kMostClients; the next gets 503
@@ -28,7 +29,9 @@ struct ServerOptions {
 /// Each client holds a socket and perhaps a file, and httplib waits with select().
 inline constexpr std::size_t kMostClients = 400;
 
-/// Serves a folder's files and live streams over HTTP. What happens when one party goes away:
+/// Serves a folder's files and live streams over HTTP, and to browsers pages: the player (PlayerFiles), and
+/// of folders their index.html or else a start page, where others get JSON. What happens when one party goes
+/// away:
 /// - An encoder that ends or is cut off, in the middle of a GOP too: that GOP is dropped, viewers get what is
 ///   complete, then an index and an end, so that what they saved is a whole stream; the name is free again.
 /// - A viewer: nobody else notices.
