@@ -58,6 +58,25 @@ TEST_F(ServeTest, ATakenPortAndAMissingFolderAreIoErrors) {
   expect_failure("tvg serve . --port 99999", 1, "--port");
 }
 
+TEST_F(ServeTest, BrowsersGetThePlayer) {
+  expect_failure("tvg serve . --player nowhere", 2, "npm ci");
+  folder_.write("player/index.html",
+                "<link href=\"player.css\"><main id=\"player\"></main><script src=\"player.js\"></script>");
+  for (const char* name : {"player.js", "player.css", "tvg.wasm"})
+    folder_.write(std::string("player/") + name, name);
+  good("tvg encode hand.obj hand.pc2 -q -o hand.tvg");
+  const Outcome result = script(
+      "ask() { exec 3<>/dev/tcp/127.0.0.1/$P; printf 'GET %s HTTP/1.0\\r\\nHost: a\\r\\nAccept: "
+      "text/html\\r\\n"
+      "\\r\\n' $1 >&3; cat <&3; exec 3>&-; };"
+      "rm -f url; tvg serve . --port 0 --player player >url 2>log & S=$!;"
+      "for i in $(seq 500); do [ -s url ] && break; sleep 0.02; done; U=$(cat url); P=${U##*:}; P=${P%/};"
+      "ask /; ask '/?stream=hand.tvg'; ask /.tvg/player.js; kill $S; wait $S");
+  EXPECT_THAT(result.out, HasSubstr("<a href=\"/?stream=hand.tvg\">hand.tvg</a>")) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("<script src=\"/.tvg/player.js\">"));
+  EXPECT_THAT(result.out, ::testing::EndsWith("\r\n\r\nplayer.js"));
+}
+
 TEST_F(ServeTest, AFileGoesLiveAndIsWatched) {
   const Outcome result = script(
       "serve; tvg encode hand.obj hand.pc2 --live --gop 3 --fps 60 -o ${U}live/cam & E=$!;"
