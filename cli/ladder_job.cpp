@@ -79,8 +79,10 @@ class LadderJob {
       const std::string name = last && step > 0 ? kNames.back() : kNames.at(step);
       if (step == 0) {
         add_step(name, options_, *opened_.source);
-      } else if (!last || !simplifiable_) {
-        add_step(name, coarser(options_, kFewerBits * static_cast<int>(step)), *opened_.source);
+      } else if (!last) {
+        add_step(name, coarser(options_, kFewerBits), *opened_.source);
+      } else if (!simplifiable_) {
+        add_step(name, coarser(options_, 2 * kFewerBits), *opened_.source);
       } else {
         add_simplified(name);
       }

@@ -10,6 +10,7 @@ namespace tvg::cli {
 namespace fs = std::filesystem;
 
 AtomicFolder::AtomicFolder(std::string path) : path_(std::move(path)) {
+  if (path_ == "-") throw ToolError(ExitStatus::kUsage, "-: standard output is no folder");
   std::error_code error;
   for (fs::path folder = fs::absolute(path_).lexically_normal(); !fs::exists(folder, error) && !error;
        folder = folder.parent_path()) {

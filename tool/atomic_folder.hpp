@@ -13,7 +13,7 @@ namespace tvg::cli {
 /// other names that it has stay. Every failure is a ToolError (kIo) that names the place.
 class AtomicFolder {
  public:
-  /// Makes the folder, and those above it, where they are missing.
+  /// Makes the folder, and those above it, where they are missing. kUsage for "-".
   explicit AtomicFolder(std::string path);
   ~AtomicFolder();
   AtomicFolder(const AtomicFolder&) = delete;

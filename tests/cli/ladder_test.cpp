@@ -101,6 +101,9 @@ TEST_F(LadderTest, OfAMeshThatChangesHasThePeriodsOfTheChanges) {
       "tvg join a.tvg b.tvg -q -o ab.tvg && tvg ladder ab.tvg -q -o steps");
   expect_agrees("steps");
   EXPECT_EQ(ladder("steps")["frame_count"], 22);
+  good("rm -r steps && tvg ladder ab.tvg --period 4 --gop 2 -q -o steps");
+  expect_agrees("steps");
+  EXPECT_EQ(borders("steps/low.tvg").second, (std::vector<int>{0, 4, 8, 10, 14, 18}));
 }
 
 TEST_F(LadderTest, WhatHasNoStepsIsRefusedAndLeavesNothing) {
@@ -110,6 +113,7 @@ TEST_F(LadderTest, WhatHasNoStepsIsRefusedAndLeavesNothing) {
   good("head -c 300000 cloth.pc2 >cut.pc2");
   expect_failure("tvg ladder cloth.obj cut.pc2 -o steps", 3, "cut.pc2");
   good("test ! -e steps");
+  expect_failure("tvg ladder cloth.obj cloth.pc2 -o -", 1, "no folder");
   good("tvg encode cloth.obj cloth.pc2 -q -o high.tvg");
   expect_failure("tvg ladder high.tvg -o .", 1, "high.tvg");
 }

@@ -66,7 +66,7 @@ TEST_F(ToolTest, TheManualShowsTheVelocityCriterionAsItIs) {
 TEST_F(ToolTest, TheManualNamesEveryCommandAndOptionAndNoOther) {
   const std::string page = read(std::string(TVG_PROJECT) + "/docs/commands.md");
   std::vector<std::string> commands = {"encode",  "decode",   "info", "verify", "compare",
-                                       "measure", "simplify", "join", "page"};
+                                       "measure", "simplify", "join", "ladder", "page"};
 #ifdef TVG_HAS_PLAYER
   commands.insert(commands.end(), {"play", "render", "serve"});
 #endif
