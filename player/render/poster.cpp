@@ -7,40 +7,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 namespace tvg::player {
 
 namespace {
 
-/// Where the page looks from (web/page/player.ts).
-constexpr std::array<double, 3> kPageDirection = {0.5, 0.35, 1};
-constexpr double kPageFieldOfView = 40 * std::numbers::pi / 180;
-constexpr double kPageDistance = 3.1;  // in radii of the ball around the first frame
+/// Of what has no colour of its own, as the page has it.
 constexpr cli::Colour kPageSurface{0.72F, 0.72F, 0.75F};
-
-/// The radius of the ball around the middle of the box that holds all vertices.
-double ball_radius(const FramePositions& positions, const BoundingBox& bounds) {
-  const std::array<double, 3> center = bounds.center();
-  double radius = 0;
-  for (std::size_t v = 0; v + 2 < positions.size(); v += 3) {
-    radius =
-        std::max(radius, std::hypot(double{positions[v]} - center[0], double{positions[v + 1]} - center[1],
-                                    double{positions[v + 2]} - center[2]));
-  }
-  return radius > 0 ? radius : 1;
-}
-
-OrbitCamera page_camera(const FramePositions& positions, const BoundingBox& bounds, UpAxis up) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  const auto [x, y, z] = kPageDirection;
-  OrbitCamera camera;
-  camera.set_angles({kDegrees * std::atan2(x, z), kDegrees * std::atan2(y, std::hypot(x, z)), 1});
-  camera.fit_height(bounds, up,
-                    2 * kPageDistance * ball_radius(positions, bounds) * std::tan(kPageFieldOfView / 2));
-  return camera;
-}
+/// The room that the page gives to what moves, in radii of the first frame.
+constexpr double kRoom = 0.24;
 
 /// The picture without its background, of what it looks like before black and before white.
 Image without_background(const Image& black, const Image& white) {
@@ -79,7 +54,10 @@ Image draw_poster(const std::string& stream, int width, int height) {
   BoundingBox bounds;
   bounds.extend(frame.positions);
   const UpAxis up = up_axis_of(frames->metadata());
-  painter.set_scene(bounds, up, page_camera(frame.positions, bounds, up));
+  bounds.pad(kRoom * view_radius(bounds));
+  OrbitCamera camera;
+  camera.fit_closely(bounds, up, static_cast<double>(width) / height);
+  painter.set_scene(bounds, up, camera);
   std::array<Image, 2> pictures;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     painter.set_background(i == 0 ? cli::Colour{0, 0, 0} : cli::Colour{1, 1, 1});

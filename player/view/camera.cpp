@@ -138,11 +138,6 @@ void OrbitCamera::fit_closely(const BoundingBox& bounds, UpAxis up, double aspec
   fitted_distance_ = std::max({half.x() / slope_x, half.y() / slope_y, nearest + radius_ / 20});
 }
 
-void OrbitCamera::fit_height(const BoundingBox& bounds, UpAxis up, double height) {
-  fit(bounds, up);
-  fitted_distance_ = height / 2 / std::tan(kFieldOfView / 2);
-}
-
 void OrbitCamera::set_angles(const ViewAngles& angles) {
   angles_ = angles;
 }

@@ -44,10 +44,6 @@ class OrbitCamera {
   /// present angles at zoom 1.
   void fit_closely(const BoundingBox& bounds, UpAxis up, double aspect);
 
-  /// fit(), then so far away that a picture is `height` high, in units of the sequence, at the box's middle
-  /// at zoom 1.
-  void fit_height(const BoundingBox& bounds, UpAxis up, double height);
-
   void set_angles(const ViewAngles& angles);
   const ViewAngles& angles() const { return angles_; }
   UpAxis up() const { return up_; }
