@@ -82,7 +82,7 @@ class LadderJob {
       } else if (!last) {
         add_step(name, coarser(options_, kFewerBits), *opened_.source);
       } else if (!simplifiable_) {
-        add_step(name, coarser(options_, 2 * kFewerBits), *opened_.source);
+        add_whole(name, "it changes, is small, or has what fewer vertices could not keep");
       } else {
         add_simplified(name);
       }
@@ -98,6 +98,13 @@ class LadderJob {
   }
 
  private:
+  /// The last step of a mesh that keeps its vertices.
+  void add_whole(const std::string& name, const std::string& reason) {
+    if (!arguments_.quiet)
+      fmt::print(stderr, "note: {}.tvg has all vertices of the mesh: {}\n", name, reason);
+    add_step(name, coarser(options_, 2 * kFewerBits), *opened_.source);
+  }
+
   void add_simplified(const std::string& name) {
     SimplifyOptions wanted;
     wanted.importance = options_.importance;
@@ -113,9 +120,7 @@ class LadderJob {
         simplify(held.sequence.mesh, held.sequence.frames, opened_.source->skeleton(), held.joints, wanted,
                  [&bar](std::uint32_t removed, std::uint32_t total) { bar.update(removed, total); });
     bar.clear();
-    // What no vertex can be taken from, a flat sheet or loose triangles, has a step of fewer bits like
-    // others.
-    if (!made) return add_step(name, coarser(options_, 2 * kFewerBits), *opened_.source);
+    if (!made) return add_whole(name, made.error().message);
     EncodeOptions options = coarser(options_, kFewerBits);
     options.fine_bits = options.coarse_bits;  // marks are of vertices that may be gone
     options.importance = {};

@@ -53,8 +53,9 @@ std::string title_of(const PageArguments& arguments) {
   fs::path input = fs::absolute(arguments.inputs.front()).lexically_normal();
   if (arguments.inputs.front() == "-") return "Animation";
   if (!input.has_filename() || input.filename() == kLadderFile) input = input.parent_path();
+  std::error_code error;
   // "walk_%04d.obj" is a walk.
-  std::string name = input.stem().string();
+  std::string name = fs::is_directory(input, error) ? input.filename().string() : input.stem().string();
   name.erase(std::min(name.size(), name.find_first_of("%#")));
   while (!name.empty() && std::string_view("_-. ").find(name.back()) != std::string_view::npos)
     name.pop_back();
