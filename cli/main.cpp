@@ -1,4 +1,5 @@
 #include "cli/commands.hpp"
+#include "cli/usage_error.hpp"
 #include "tool/atomic_file.hpp"
 #include "tool/tool_error.hpp"
 
@@ -8,25 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <string>
 #include <system_error>
-#include <vector>
-
-namespace {
-
-/// What to say where no command is named, or one that does not exist.
-std::string command_wanted(CLI::App& tool) {
-  std::string message = "tvg: ";
-  const std::vector<std::string> unknown = tool.remaining();
-  if (!unknown.empty()) message += unknown.front() + " is no command: ";
-  message += "name one of";
-  for (const CLI::App* command : tool.get_subcommands([](CLI::App*) { return true; })) {
-    message += " " + command->get_name();
-  }
-  return message;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   using namespace tvg::cli;
@@ -34,7 +17,7 @@ int main(int argc, char** argv) {
   remove_temporary_files_on_signals();
 
   CLI::App tool("Compresses, inspects and restores time-variant geometry (.tvg).", "tvg");
-  tool.set_version_flag("--version", TVG_VERSION);
+  tool.set_version_flag("-v,--version", TVG_VERSION);
   tool.require_subcommand(1);
   tool.footer("Exit status: 0 fine, 1 usage, 2 I/O, 3 invalid input file, 4 other failure.");
   add_encode_command(tool);
@@ -52,19 +35,19 @@ int main(int argc, char** argv) {
   add_render_command(tool);
   add_serve_command(tool);
 #endif
+  add_help_command(tool);
 
   try {
     tool.parse(argc, argv);
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category());
     return static_cast<int>(ExitStatus::kSuccess);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError) &&
-        tool.get_subcommands().empty()) {
-      std::cerr << command_wanted(tool) << '\n';
-      return static_cast<int>(ExitStatus::kUsage);
+    if (error.get_exit_code() == 0) {  // help or the version was asked for
+      tool.exit(error);
+      return static_cast<int>(ExitStatus::kSuccess);
     }
-    const bool asked_for_help = tool.exit(error) == 0;
-    return static_cast<int>(asked_for_help ? ExitStatus::kSuccess : ExitStatus::kUsage);
+    std::cerr << usage_message(tool, error) << '\n';
+    return static_cast<int>(ExitStatus::kUsage);
   } catch (const ToolError& error) {
     std::cerr << "tvg: " << error.what() << '\n';
     return static_cast<int>(error.status());

@@ -25,7 +25,9 @@ if(ENCODER)
 endif()
 set(prefix ${SCRATCH}/prefix)
 file(REMOVE_RECURSE ${SCRATCH})
-run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --prefix ${prefix} --component library)
+foreach(component runtime library)
+  run(${CMAKE_COMMAND} --install ${BUILD_FOLDER} --prefix ${prefix} --component ${component})
+endforeach()
 
 if(WAY STREQUAL find_package)
   run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${SCRATCH}/build -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${prefix}
