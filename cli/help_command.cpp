@@ -41,7 +41,8 @@ void run_help(const CLI::App& tool, const HelpArguments& arguments) {
   } else if (arguments.manual) {
     fmt::print("{}", manual_page(commands, name, TVG_VERSION));
   } else if (name.empty()) {
-    fmt::print("{}", tool.help());
+    // What tool.help() gives is that of the command being run, which is this one.
+    fmt::print("{}", tool.get_formatter()->make_help(&tool, tool.get_name(), CLI::AppFormatMode::Normal));
   } else {
     fmt::print("{}", tool.get_subcommand(name)->help(tool.get_name()));
   }
