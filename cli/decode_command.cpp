@@ -4,6 +4,7 @@
 #include "tool/decode_ahead.hpp"
 #include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
+#include "tool/overwriting.hpp"
 #include "tool/progress.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/tool_error.hpp"
@@ -282,13 +283,11 @@ void add_decode_command(CLI::App& tool) {
       "Restore the frames of a .tvg. Positions are float32: with more than 20 bits, their rounding can put a "
       "coordinate off by more than half a step.");
   command.add_option("input", arguments->input, "the stream; - for standard input")->required();
-  command
-      .add_option(
-          "-o,--output", arguments->output,
-          "a cache (back.pc2, back.mdd, back.npy; the mesh goes beside it as OBJ; - for PC2 on standard "
-          "output), a scene that any engine plays (back.glb, back.gltf), or a sequence of mesh files "
-          "(back_%04d.obj, .ply, .off, .stl)")
-      ->required();
+  command.add_option(
+      "-o,--output", arguments->output,
+      "a cache (back.pc2, back.mdd, back.npy; the mesh goes beside it as OBJ; - for PC2 on standard "
+      "output), a scene that any engine plays (back.glb, back.gltf), or a sequence of mesh files "
+      "(back_%04d.obj, .ply, .off, .stl); default: NAME_decoded.pc2 beside NAME.tvg");
   command.add_option("--frames", arguments->frames, "decode frames A-B only, counted from 0");
   command
       .add_option("--components", arguments->components,
@@ -317,6 +316,7 @@ void add_decode_command(CLI::App& tool) {
       ->check(CLI::Range(1, 256));
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
   command.callback([arguments] {
+    if (arguments->output.empty()) arguments->output = default_output(arguments->input, "_decoded.pc2");
     InputFiles inputs;
     inputs.add(arguments->input);
     for (const std::string& output : sink_outputs(arguments->output, {})) inputs.check_output(output);

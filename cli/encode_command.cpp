@@ -3,6 +3,7 @@
 #include "encoder/live/live_encoding.hpp"
 #include "encoder/live/stream_output.hpp"
 #include "tool/option_values.hpp"
+#include "tool/overwriting.hpp"
 #include "tool/progress.hpp"
 #include "tool/tool_error.hpp"
 
@@ -105,10 +106,9 @@ void add_encode_command(CLI::App& tool) {
   auto arguments = std::make_shared<EncodeCommandArguments>();
   CLI::App& command = *tool.add_subcommand("encode", "Make a .tvg of a mesh sequence");
   add_encode_options(command, *arguments);
-  command
-      .add_option("-o,--output", arguments->output,
-                  "the stream to write; - for standard output; an http or https URL for an upload by PUT")
-      ->required();
+  command.add_option("-o,--output", arguments->output,
+                     "the stream to write; - for standard output; an http or https URL for an upload by PUT "
+                     "(default: named after the first input, beside it)");
   add_mesh_bounds(command, *arguments);
   auto* live =
       command
@@ -118,7 +118,10 @@ void add_encode_command(CLI::App& tool) {
           ->excludes("--threads");
   command.add_flag("--loop", arguments->loop, "with --live: begin the file again at its end, until stopped")
       ->needs(live);
-  command.callback([arguments] { run_encode(*arguments); });
+  command.callback([arguments] {
+    if (arguments->output.empty()) arguments->output = default_output(arguments->inputs.front(), ".tvg");
+    run_encode(*arguments);
+  });
 }
 
 }  // namespace tvg::cli

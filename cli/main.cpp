@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/usage_error.hpp"
 #include "tool/atomic_file.hpp"
+#include "tool/overwriting.hpp"
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -36,6 +37,11 @@ int main(int argc, char** argv) {
   add_serve_command(tool);
 #endif
   add_help_command(tool);
+  for (CLI::App* command : tool.get_subcommands([](CLI::App*) { return true; })) {
+    if (command->get_option_no_throw("--output") == nullptr) continue;
+    command->add_flag_callback("-f,--force", tvg::cli::overwrite_without_asking,
+                               "replace files without asking; only a terminal is asked");
+  }
 
   try {
     tool.parse(argc, argv);

@@ -1,5 +1,6 @@
 #include "tool/atomic_file.hpp"
 
+#include "tool/overwriting.hpp"
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
@@ -112,6 +113,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
     return;
   }
   if (exists && access(path_.c_str(), W_OK) != 0) fail("", errno);
+  if (exists) confirm_overwriting(path_);
   std::error_code no_target;
   target_ = exists ? std::filesystem::canonical(path_, no_target).string() : path_;
   if (no_target) target_ = path_;

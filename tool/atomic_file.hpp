@@ -10,7 +10,8 @@ namespace tvg::cli {
 /// An output file that appears under its name only when it is complete: bytes go to a temporary name in the
 /// same folder, finish() renames it, and the destructor removes it where finish() was not reached. A file of
 /// that name that exists stays untouched until then. "-" is standard output; it, pipes and devices are
-/// written straight through. Every failure is a ToolError (kIo) that names the file.
+/// written straight through. A user at a terminal is asked before a file is replaced
+/// (confirm_overwriting()). Every failure is a ToolError (kIo) that names the file.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
