@@ -37,11 +37,13 @@ export class LocalHost implements FeedHost {
 /** Decodes in a worker. */
 export class WorkerHost implements FeedHost {
   private readonly answers = new Map<number, (answer: FeedAnswer) => void>();
+  /** Why the worker does nothing any more. */
+  private broken: string | undefined;
 
   constructor(private readonly worker: Worker) {
     worker.onmessage = ({ data }: MessageEvent<FeedAnswer>) => this.answers.get(data.id)?.(data);
     worker.onerror = (event) => {
-      const message = event.message || "the worker could not be started";
+      const message = (this.broken = event.message || "the worker could not be started");
       for (const [id, answer] of this.answers) answer({ type: "error", id, code: "io", message });
     };
   }
@@ -49,6 +51,7 @@ export class WorkerHost implements FeedHost {
     return this.answers.size;
   }
   open(id: number, request: Extract<FeedRequest, { type: "open" }>, answer: (answer: FeedAnswer) => void): void {
+    if (this.broken !== undefined) return answer({ type: "error", id, code: "io", message: this.broken });
     this.answers.set(id, answer);
     this.worker.postMessage(request);
   }
