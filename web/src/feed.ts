@@ -5,6 +5,8 @@ import { FeedSession } from "./feed_session.js";
 export interface FeedHost {
   /** How many streams it has open. */
   readonly load: number;
+  /** Whether nothing can be opened any more. */
+  readonly isBroken: boolean;
   open(id: number, request: Extract<FeedRequest, { type: "open" }>, answer: (answer: FeedAnswer) => void): void;
   send(request: FeedRequest): void;
   dispose(): void;
@@ -19,6 +21,7 @@ export function nextFeedId(): number {
 /** Decodes on the calling thread: where there are no workers, and in Node. */
 export class LocalHost implements FeedHost {
   private readonly sessions = new Map<number, FeedSession>();
+  readonly isBroken = false;
   get load(): number {
     return this.sessions.size;
   }
@@ -49,6 +52,9 @@ export class WorkerHost implements FeedHost {
   }
   get load(): number {
     return this.answers.size;
+  }
+  get isBroken(): boolean {
+    return this.broken !== undefined;
   }
   open(id: number, request: Extract<FeedRequest, { type: "open" }>, answer: (answer: FeedAnswer) => void): void {
     if (this.broken !== undefined) return answer({ type: "error", id, code: "io", message: this.broken });
