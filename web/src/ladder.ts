@@ -149,7 +149,7 @@ export class LadderStream {
   progress(): StreamProgress {
     const progress = this.now.progress();
     this.bytesPerSecond = progress.bytesPerSecond ?? this.bytesPerSecond;
-    return { ...progress, bytesPerSecond: this.bytesPerSecond };
+    return { ...progress, bytesPerSecond: this.bytesPerSecond, stream: this.index };
   }
   rest(): void {
     this.now.rest();

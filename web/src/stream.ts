@@ -30,6 +30,8 @@ export interface StreamProgress {
   /** Frames whose bytes are all there, as [first, end) in order; empty without an index. */
   frames: [number, number][];
   bytesPerSecond: number | undefined;
+  /** Of a ladder: which of its streams plays, 0 the best. */
+  stream?: number;
 }
 
 /** What a step of a stream came to: a new mesh is told before its first frame. */

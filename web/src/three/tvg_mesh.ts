@@ -159,9 +159,9 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
 
   private newMaterial(name: string): THREE.Material {
     const coloured = this.ownColours !== undefined;
-    if (!this.makeMaterial) return this.materials.make(name, coloured);
-    const material = this.makeMaterial(name);
+    const material = this.makeMaterial?.(name) ?? this.materials.make(name, coloured);
     material.vertexColors = coloured;
+    if (this.player.metadata.get("shading") === "flat") Object.assign(material, { flatShading: true });
     return material;
   }
 

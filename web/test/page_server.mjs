@@ -1,0 +1,109 @@
+// A server on loopback for the page's tests: files with ranges, slow lines, connections that are cut, a live stream.
+import { existsSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { join } from "node:path";
+
+const types = { html: "text/html", js: "text/javascript", css: "text/css", wasm: "application/wasm", tvg: "model/vnd.tvg", png: "image/png", json: "application/json" };
+const kTick = 20;
+
+/**
+ * `folder` holds the page, `files` (name to bytes) stand before what lies there. `bytesPerSecond` is the line's, over
+ * all connections; `cutAfter` ends the next `cuts` answers with a stream after so many bytes.
+ */
+export async function servePage(folder, files = {}) {
+  const state = { files, bytesPerSecond: Infinity, latency: 0, cutAfter: Infinity, cuts: 0, requests: [], live: undefined, sent: 0 };
+  let budget = 0;
+  let last = performance.now();
+  const waiting = new Set();
+  const refill = setInterval(() => {
+    const now = performance.now();
+    budget = Math.min(budget + (state.bytesPerSecond * (now - last)) / 1000, state.bytesPerSecond * 0.1);
+    last = now;
+    for (const pump of [...waiting]) pump();
+  }, kTick);
+
+  function send(response, body) {
+    let at = 0;
+    const pump = () => {
+      waiting.delete(pump);
+      if (response.destroyed) return;
+      while (at < body.length) {
+        const share = Math.floor(Math.min(16384, body.length - at, budget / Math.max(1, waiting.size + 1)));
+        if (share <= 0) return waiting.add(pump);
+        if (state.bytesPerSecond !== Infinity) budget -= share;
+        const more = response.write(body.subarray(at, at + share));
+        at += share;
+        state.sent += share;
+        if (!more) return response.once("drain", pump);
+      }
+      response.end();
+    };
+    if (state.bytesPerSecond === Infinity) {
+      state.sent += body.length;
+      response.end(body);
+    } else pump();
+  }
+
+  const server = createServer(async (request, response) => {
+    const name = request.url.split("?")[0].slice(1) || "index.html";
+    state.requests.push(`${name} ${request.headers.range ?? ""}`.trim());
+    if (state.latency > 0) await new Promise((done) => setTimeout(done, state.latency));
+    if (name.startsWith("live/")) return state.live ? state.live(response) : response.writeHead(404).end();
+    const file = join(folder, name);
+    const body = state.files[name] ?? (existsSync(file) ? readFileSync(file) : undefined);
+    if (!body) return response.writeHead(404).end();
+    const range = /^bytes=(\d+)-(\d*)$/.exec(request.headers.range ?? "");
+    const from = range ? Number(range[1]) : 0;
+    const to = range?.[2] ? Math.min(Number(range[2]) + 1, body.length) : body.length;
+    const headers = { "Content-Type": types[name.split(".").pop()] ?? "application/octet-stream", "Content-Length": to - from };
+    if (range) headers["Content-Range"] = `bytes ${from}-${to - 1}/${body.length}`;
+    response.writeHead(range ? 206 : 200, headers);
+    if (name.endsWith(".tvg") && to - from > state.cutAfter && state.cuts-- > 0) {
+      return response.write(body.subarray(from, from + state.cutAfter), () => setTimeout(() => response.destroy(), 30));
+    }
+    send(response, body.subarray(from, to));
+  });
+  await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
+  return Object.assign(state, {
+    url: `http://127.0.0.1:${server.address().port}/`,
+    close: () => {
+      clearInterval(refill);
+      server.closeAllConnections?.();
+      return new Promise((done) => server.close(done));
+    },
+  });
+}
+
+/** A live answer: the head of a stream and its groups of frames, one every `seconds`; `ends` tells when it is over. */
+export function liveAnswer(bytes, { seconds, groups = Infinity, cut = false }) {
+  const chunks = chunksOf(bytes);
+  const firstGop = chunks.findIndex(({ type }) => type === "GOP ");
+  const gops = chunks.filter(({ type }) => type === "GOP ");
+  return (response) => {
+    response.writeHead(200, { "Content-Type": "model/vnd.tvg", "Cache-Control": "no-store" });
+    response.write(bytes.subarray(0, chunks[firstGop].from));
+    let sent = 0;
+    const step = () => {
+      if (response.destroyed) return;
+      const { from, to } = gops[sent % gops.length];
+      if (sent++ < groups) {
+        response.write(bytes.subarray(from, to));
+        setTimeout(step, 1000 * seconds);
+      } else if (cut) response.destroy();
+      else response.end();
+    };
+    step();
+  };
+}
+
+/** Where the chunks of a stream are (format-spec §3.2). */
+function chunksOf(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const chunks = [];
+  for (let at = 8; at + 20 <= bytes.length; ) {
+    const to = at + 20 + view.getUint32(at + 8, true);
+    chunks.push({ type: String.fromCharCode(...bytes.subarray(at, at + 4)), from: at, to });
+    at = to;
+  }
+  return chunks;
+}
