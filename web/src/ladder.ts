@@ -32,6 +32,7 @@ const kShareToRise = 0.7;
 const kShareToStay = 0.9;
 /** Seconds that are to be there before a better stream is tried, and with which a slow line is waited out. */
 const kEnoughToRise = 1;
+const kEnoughToTry = 4;
 const kEnoughToStay = 6;
 /** Milliseconds of waiting for a frame after which a lesser stream goes on without waiting for the period's end. */
 const kImpatience = 1000;
@@ -43,7 +44,8 @@ const kLook = 8;
 
 /** Which of streams of these rates, the best first, the line is good for. */
 export function pickStream(bitsPerSecond: number[], { bytesPerSecond, bufferedSeconds, current }: Line): number {
-  if (bytesPerSecond === undefined) return current;
+  // A stream that is too small to measure the line by is none too much for it.
+  if (bytesPerSecond === undefined) return bufferedSeconds >= kEnoughToTry ? Math.max(0, current - 1) : current;
   const line = 8 * bytesPerSecond;
   const found = bitsPerSecond.findIndex((rate) => rate <= kShareToRise * line);
   const affordable = found < 0 ? bitsPerSecond.length - 1 : found;

@@ -2,6 +2,7 @@
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
+import { chunksOf } from "./chunks.mjs";
 
 const types = { html: "text/html", js: "text/javascript", css: "text/css", wasm: "application/wasm", tvg: "model/vnd.tvg", png: "image/png", json: "application/json" };
 const kTick = 20;
@@ -74,7 +75,10 @@ export async function servePage(folder, files = {}) {
   });
 }
 
-/** A live answer: the head of a stream and its groups of frames, one every `seconds`; `ends` tells when it is over. */
+/**
+ * A live answer: the head of a stream and its groups of frames, one every `seconds`, again and again or so many. When it
+ * has sent each once it may end properly; `cut` breaks it off.
+ */
 export function liveAnswer(bytes, { seconds, groups = Infinity, cut = false }) {
   const chunks = chunksOf(bytes);
   const firstGop = chunks.findIndex(({ type }) => type === "GOP ");
@@ -82,6 +86,7 @@ export function liveAnswer(bytes, { seconds, groups = Infinity, cut = false }) {
   return (response) => {
     response.writeHead(200, { "Content-Type": "model/vnd.tvg", "Cache-Control": "no-store" });
     response.write(bytes.subarray(0, chunks[firstGop].from));
+    const end = gops[gops.length - 1].to;
     let sent = 0;
     const step = () => {
       if (response.destroyed) return;
@@ -90,20 +95,8 @@ export function liveAnswer(bytes, { seconds, groups = Infinity, cut = false }) {
         response.write(bytes.subarray(from, to));
         setTimeout(step, 1000 * seconds);
       } else if (cut) response.destroy();
-      else response.end();
+      else response.end(groups === gops.length ? bytes.subarray(end) : undefined);
     };
     step();
   };
-}
-
-/** Where the chunks of a stream are (format-spec §3.2). */
-function chunksOf(bytes) {
-  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const chunks = [];
-  for (let at = 8; at + 20 <= bytes.length; ) {
-    const to = at + 20 + view.getUint32(at + 8, true);
-    chunks.push({ type: String.fromCharCode(...bytes.subarray(at, at + 4)), from: at, to });
-    at = to;
-  }
-  return chunks;
 }

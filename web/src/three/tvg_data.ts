@@ -1,8 +1,8 @@
 import { TvgError } from "../errors.js";
 import type { FreeFormData } from "../types.js";
 
-/** Bytes of one of a stream's data once unpacked, at most: what a stranger declares is not believed. */
-const kMostBytes = 1 << 28;
+/** Bytes of one of a stream's data once unpacked, at most (format-spec §4.8). */
+const kMostBytes = 1 << 26;
 
 /** The data themselves. The decoder of zstd is three's. */
 export async function unpack({ name, size, encoding, bytes }: FreeFormData): Promise<Uint8Array> {
