@@ -1,4 +1,5 @@
 import { HttpSource } from "./http_source.js";
+import type { Throughput } from "./throughput.js";
 
 /** What a stream is read from: a URL, or bytes that are in memory already. */
 export type StreamSource = string | URL | Uint8Array | ArrayBuffer | Blob;
@@ -16,6 +17,8 @@ export interface FetchOptions {
   aheadBytes?: number;
   /** The answer never ends: it is read once, as it comes, and a connection that is cut is not taken up again. */
   live?: boolean;
+  /** What measures the line, where several streams share one. */
+  throughput?: Throughput;
 }
 
 /** What of a stream has arrived. */

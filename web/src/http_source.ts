@@ -19,7 +19,7 @@ export class HttpSource implements ByteSource {
   size: number | undefined;
   private readonly cache: ByteCache;
   private readonly ahead: number;
-  private readonly throughput = new Throughput();
+  private readonly throughput: Throughput;
   private reader: ReadableStreamDefaultReader<Uint8Array> | undefined;
   private request: AbortController | undefined;
   /** Counts connections given up: what comes of an earlier one is nothing any more. */
@@ -43,6 +43,7 @@ export class HttpSource implements ByteSource {
     const kept = Math.max(kLeastCacheBytes, options.live ? 0 : (options.cacheBytes ?? kCacheBytes));
     this.cache = new ByteCache(kept);
     if (options.live) this.ranges = false;
+    this.throughput = options.throughput ?? new Throughput();
     this.ahead = Math.min(options.aheadBytes ?? kAheadBytes, kept / 2);
   }
 
@@ -131,11 +132,9 @@ export class HttpSource implements ByteSource {
     try {
       if (this.reader === undefined) await this.connect(gap);
       if (connection !== this.connection) return;
-      const begun = performance.now();
-      const piece = (await this.reader!.read()).value;
+      const piece = await this.receive(this.reader!);
       if (connection !== this.connection) return;
       if (piece === undefined) return this.endOfBody();
-      this.throughput.add(piece.length, (performance.now() - begun) / 1000);
       this.cache.add(this.at, piece, this.wanted);
       this.at += piece.length;
       this.wake?.();
@@ -144,6 +143,18 @@ export class HttpSource implements ByteSource {
       if (connection !== this.connection) return;
       this.disconnect();
       throw this.connectionError(error);
+    }
+  }
+
+  private async receive(reader: ReadableStreamDefaultReader<Uint8Array>): Promise<Uint8Array | undefined> {
+    let bytes = 0;
+    this.throughput.wait();
+    try {
+      const { value } = await reader.read();
+      bytes = value?.length ?? 0;
+      return value;
+    } finally {
+      this.throughput.came(bytes);
     }
   }
 

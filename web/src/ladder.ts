@@ -1,5 +1,6 @@
 import { asTvgError, TvgError } from "./errors.js";
 import { type StreamEvent, type StreamOptions, type StreamProgress, TvgStream } from "./stream.js";
+import { Throughput } from "./throughput.js";
 
 /** One of the streams of a ladder: the same frames in another quality. */
 export interface LadderRung {
@@ -27,8 +28,12 @@ export interface Line {
   current: number;
 }
 
-/** A stream is begun with when it takes no more of the line than this, and kept as long as it takes no more than that. */
+/**
+ * A stream is begun with when it takes no more of the line than the first, or the second while much is there already,
+ * and kept as long as it takes no more than the third.
+ */
 const kShareToRise = 0.7;
+const kShareToTry = 0.85;
 const kShareToStay = 0.9;
 /** Seconds that are to be there before a better stream is tried, and with which a slow line is waited out. */
 const kEnoughToRise = 1;
@@ -47,7 +52,8 @@ export function pickStream(bitsPerSecond: number[], { bytesPerSecond, bufferedSe
   // A stream that is too small to measure the line by is none too much for it.
   if (bytesPerSecond === undefined) return bufferedSeconds >= kEnoughToTry ? Math.max(0, current - 1) : current;
   const line = 8 * bytesPerSecond;
-  const found = bitsPerSecond.findIndex((rate) => rate <= kShareToRise * line);
+  const share = bufferedSeconds >= kEnoughToTry ? kShareToTry : kShareToRise;
+  const found = bitsPerSecond.findIndex((rate) => rate <= share * line);
   const affordable = found < 0 ? bitsPerSecond.length - 1 : found;
   if (affordable < current) return bufferedSeconds >= kEnoughToRise ? affordable : current;
   const isTooMuch = bitsPerSecond[current]! > kShareToStay * line && bufferedSeconds < kEnoughToStay;
@@ -82,7 +88,6 @@ interface Candidate {
 export class LadderStream {
   private candidate: Candidate | undefined;
   private frame = -1;
-  private bytesPerSecond: number | undefined;
   /** Events of what is at hand in a stream that was switched to. */
   private held: StreamEvent[] = [];
   private disposed = false;
@@ -96,7 +101,8 @@ export class LadderStream {
   ) {}
 
   /** Fetches the manifest, and begins with the least stream: its first picture is there soonest. */
-  static async open(url: string, options: StreamOptions): Promise<LadderStream> {
+  static async open(url: string, given: StreamOptions): Promise<LadderStream> {
+    const options = { throughput: new Throughput(), ...given };
     const manifest = await fetchManifest(url, options);
     const index = manifest.streams.length - 1;
     return new LadderStream(manifest, url, options, await openRung(manifest, url, index, options), index);
@@ -149,9 +155,7 @@ export class LadderStream {
     return this.now.readIndex();
   }
   progress(): StreamProgress {
-    const progress = this.now.progress();
-    this.bytesPerSecond = progress.bytesPerSecond ?? this.bytesPerSecond;
-    return { ...progress, bytesPerSecond: this.bytesPerSecond, stream: this.index };
+    return { ...this.now.progress(), stream: this.index };
   }
   rest(): void {
     this.now.rest();

@@ -14,6 +14,19 @@ export class Throughput {
   private average = 0;
   private weight = 0;
   private buffered = 0;
+  private waiting = 0;
+  private since = 0;
+
+  /** Bytes are waited for; to be called once for each `came`. Several connections may share the line. */
+  wait(now = performance.now()): void {
+    if (this.waiting++ === 0) this.since = now;
+  }
+  /** So many came, or none where the wait came to nothing. */
+  came(bytes: number, now = performance.now()): void {
+    --this.waiting;
+    this.add(bytes, (now - this.since) / 1000);
+    this.since = now;
+  }
 
   /** Bytes that came, and how long they were waited for. */
   add(bytes: number, seconds: number): void {
@@ -28,8 +41,9 @@ export class Throughput {
     this.bytes = this.seconds = 0;
   }
 
-  /** For a while nobody reads. */
+  /** For a while nobody reads, unless another does. */
   pause(): void {
+    if (this.waiting > 0) return;
     this.bytes = this.seconds = 0;
     this.buffered = kBufferedBytes;
   }
