@@ -95,6 +95,7 @@ export class HttpSource implements ByteSource {
 
   rest(): void {
     this.resting = true;
+    if (this.ranges) this.disconnect();
   }
 
   close(): void {

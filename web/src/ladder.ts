@@ -44,8 +44,10 @@ const kImpatience = 1000;
 /** Seconds that are fetched ahead. */
 const kAheadSeconds = 12;
 const kLeastAheadBytes = 1 << 18;
+/** Seconds that are to be there for a lesser stream to be waited for; with less it takes over at once. */
+const kEnoughToPrepare = 1;
 /** Frames between looks at the line. */
-const kLook = 8;
+const kLook = 4;
 
 /** Which of streams of these rates, the best first, the line is good for. */
 export function pickStream(bitsPerSecond: number[], { bytesPerSecond, bufferedSeconds, current }: Line): number {
@@ -90,6 +92,8 @@ export class LadderStream {
   private frame = -1;
   /** Events of what is at hand in a stream that was switched to. */
   private held: StreamEvent[] = [];
+  /** A stream that is to go on before the next border: what plays has come to its end. */
+  private urgent: number | undefined;
   private disposed = false;
 
   private constructor(
@@ -133,10 +137,11 @@ export class LadderStream {
     const held = this.now.isAtHand ? this.held.shift() : undefined;
     if (held !== undefined) return this.came(held);
     this.held = [];
+    if (this.urgent !== undefined) await this.goOnAtOnce(this.urgent);
     for (let step = this.now.next(); ; ) {
       const event = await orLate(step);
       if (event !== "late") return this.came(event);
-      const lesser = this.pick();
+      const lesser = this.pick().index;
       if (lesser <= this.index) continue;
       step.catch(() => undefined);
       await this.goOnAtOnce(lesser);
@@ -174,8 +179,9 @@ export class LadderStream {
   }
 
   private look(): void {
-    const wanted = this.pick();
-    if (wanted === this.candidate?.index) return;
+    const { index: wanted, bufferedSeconds } = this.pick();
+    this.urgent = wanted > this.index && bufferedSeconds < kEnoughToPrepare ? wanted : undefined;
+    if (this.urgent !== undefined || wanted === this.candidate?.index) return;
     this.dropCandidate();
     if (wanted === this.index || this.nextBorder() === undefined) return;
     const candidate: Candidate = { index: wanted, stream: undefined, ready: undefined };
@@ -186,12 +192,13 @@ export class LadderStream {
     });
   }
 
-  private pick(): number {
+  private pick(): { index: number; bufferedSeconds: number } {
     const { bytesPerSecond, frames } = this.progress();
     const end = frames.find(([first, last]) => first <= this.frame && this.frame < last)?.[1] ?? this.frame;
     const bufferedSeconds = end >= this.frameCount ? Infinity : (end - this.frame) / this.frameRate;
     const rates = this.manifest.streams.map((rung) => rung.bits_per_second);
-    return pickStream(rates, { bytesPerSecond, bufferedSeconds, current: this.index });
+    const index = pickStream(rates, { bytesPerSecond, bufferedSeconds, current: this.index });
+    return { index, bufferedSeconds };
   }
 
   /** The next frame at which another stream may go on. */
@@ -231,6 +238,7 @@ export class LadderStream {
 
   /** Another stream takes over with the next frame, wherever that is. */
   private async goOnAtOnce(index: number): Promise<void> {
+    this.urgent = undefined;
     this.dropCandidate();
     this.now.rest();
     const stream = await openRung(this.manifest, this.base, index, this.options);

@@ -1,18 +1,17 @@
 /** Of one measurement at least. */
-const kWindowBytes = 1 << 16;
+const kWindowBytes = 1 << 14;
 const kWindowSeconds = 0.05;
-/** After so many seconds of receiving an older measurement counts half. */
-const kHalfLife = 3;
+/** After so many seconds of receiving an older measurement counts half: in what follows soon, and in what stays calm. */
+const kHalfLives = [1, 4];
 /** What may have been buffered while nobody read, and then comes faster than the line is. */
 const kBufferedBytes = 1 << 20;
 const kAtOnceSeconds = 0.001;
 
-/** How fast a line is: an average that forgets. */
+/** How fast a line is: the lesser of two averages that forget, so that what becomes slow is seen soon. */
 export class Throughput {
   private bytes = 0;
   private seconds = 0;
-  private average = 0;
-  private weight = 0;
+  private readonly averages = kHalfLives.map((halfLife) => ({ halfLife, sum: 0, weight: 0 }));
   private buffered = 0;
   private waiting = 0;
   private since = 0;
@@ -35,9 +34,11 @@ export class Throughput {
     this.bytes += bytes;
     this.seconds += seconds;
     if (this.seconds < kWindowSeconds || this.bytes < kWindowBytes) return;
-    const keep = 0.5 ** (this.seconds / kHalfLife);
-    this.average = keep * this.average + (1 - keep) * (this.bytes / this.seconds);
-    this.weight = keep * this.weight + (1 - keep);
+    for (const average of this.averages) {
+      const keep = 0.5 ** (this.seconds / average.halfLife);
+      average.sum = keep * average.sum + (1 - keep) * (this.bytes / this.seconds);
+      average.weight = keep * average.weight + (1 - keep);
+    }
     this.bytes = this.seconds = 0;
   }
 
@@ -50,6 +51,7 @@ export class Throughput {
 
   /** Undefined until enough has come. */
   get bytesPerSecond(): number | undefined {
-    return this.weight > 0 ? this.average / this.weight : undefined;
+    if (this.averages[0]!.weight === 0) return undefined;
+    return Math.min(...this.averages.map(({ sum, weight }) => sum / weight));
   }
 }

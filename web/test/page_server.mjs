@@ -13,36 +13,31 @@ const kTick = 20;
  */
 export async function servePage(folder, files = {}) {
   const state = { files, bytesPerSecond: Infinity, latency: 0, cutAfter: Infinity, cuts: 0, requests: [], live: undefined, sent: 0 };
-  let budget = 0;
   let last = performance.now();
   const waiting = new Set();
   const refill = setInterval(() => {
     const now = performance.now();
-    budget = Math.min(budget + (state.bytesPerSecond * (now - last)) / 1000, state.bytesPerSecond * 0.1);
+    const budget = (state.bytesPerSecond * Math.min(now - last, 200)) / 1000;
     last = now;
-    for (const pump of [...waiting]) pump();
+    const pumps = [...waiting];
+    for (const pump of pumps) pump(Math.ceil(budget / pumps.length));
   }, kTick);
 
   function send(response, body) {
     let at = 0;
-    const pump = () => {
+    const pump = (share) => {
+      if (response.destroyed || at >= body.length) return waiting.delete(pump);
+      // What the other side does not take is not sent.
+      if (response.writableLength > 1 << 16) return undefined;
+      const piece = body.subarray(at, at + share);
+      at += piece.length;
+      state.sent += piece.length;
+      if (at < body.length) return response.write(piece);
       waiting.delete(pump);
-      if (response.destroyed) return;
-      while (at < body.length) {
-        const share = Math.floor(Math.min(16384, body.length - at, budget / Math.max(1, waiting.size + 1)));
-        if (share <= 0) return waiting.add(pump);
-        if (state.bytesPerSecond !== Infinity) budget -= share;
-        const more = response.write(body.subarray(at, at + share));
-        at += share;
-        state.sent += share;
-        if (!more) return response.once("drain", pump);
-      }
-      response.end();
+      return response.end(piece);
     };
-    if (state.bytesPerSecond === Infinity) {
-      state.sent += body.length;
-      response.end(body);
-    } else pump();
+    if (state.bytesPerSecond === Infinity) pump(body.length);
+    else waiting.add(pump);
   }
 
   const server = createServer(async (request, response) => {
