@@ -193,7 +193,11 @@ export class TvgStream {
 
   private async feed(): Promise<void> {
     const passed = this.decoder.skip();
-    if (passed > 0) this.source.goTo((this.position += passed));
+    if (passed > 0) {
+      this.source.goTo((this.position += passed));
+      // At the end of a chunk there may be more to pass.
+      return;
+    }
     const { turn } = this;
     const bytes = await this.readAgain();
     if (turn !== this.turn) {
