@@ -62,11 +62,13 @@ player.addEventListener("ended", () => {
   if (source.isLive) notice.stop("The live stream has ended", "Whoever sent it has stopped.", "Join again");
 });
 player.addEventListener("error", () => {
-  const { message } = player.error!;
+  // Where in the stream it is, which the text ends with, helps nobody here.
+  const message = player.error!.message.replace(/ \[[^\]]*\]$/, "");
+  const text = message.charAt(0).toUpperCase() + message.slice(1);
   const isFile = location.protocol === "file:";
   const hint = isFile ? " Browsers read streams from servers only: offer this folder over HTTP." : "";
   const title = source.isLive ? `${source.title} cannot be watched` : "This animation cannot be played";
-  notice.stop(title, `${message}.${hint}`, "Retry");
+  notice.stop(title, `${text}.${hint}`, "Retry");
 });
 
 let first = true;

@@ -54,15 +54,14 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
   }
 
-  /** Puts the frame into the middle of the picture, as near as its box allows. */
-  fit(isUpZ: boolean): void {
+  /** Puts the frame into the middle of the picture, as near as its box allows, with room for so much of its radius. */
+  fit(isUpZ: boolean, room = 0.24): void {
     const { geometry } = this.mesh;
     geometry.computeBoundingBox();
     const box = geometry.boundingBox!;
     const center = box.getCenter(new THREE.Vector3());
     const radius = box.getSize(new THREE.Vector3()).length() / 2 || 1;
-    // What moves is given room.
-    box.expandByScalar(0.24 * radius);
+    box.expandByScalar(room * radius);
     const up = isUpZ ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
     this.camera.up.copy(up);
     // They ask for the upright axis when they are made.
