@@ -110,7 +110,7 @@ async function looping(page) {
 
 async function cut(page) {
   await plays(page, 5);
-  assert.equal(server.cuts, 0);
+  assert.ok(server.cuts <= 0);
   passed("a connection that is cut is taken up again");
 }
 
