@@ -1,3 +1,4 @@
+import { BasisFeed } from "./basis_feed.js";
 import type { Decoder } from "./decoder.js";
 import { asTvgError } from "./errors.js";
 import type { FeedAnswer, FeedFrame, FeedRequest } from "./feed_messages.js";
@@ -33,6 +34,7 @@ export class FeedSession {
   /** The group whose flags were told last; -1 for none. */
   private toldFlags = -1;
   private toldProgress = "";
+  private readonly basis = new BasisFeed();
 
   constructor(
     private readonly request: OpenRequest,
@@ -45,6 +47,7 @@ export class FeedSession {
     if (request.type === "take") this.asked += request.frames;
     if (request.type === "loop") this.loops = request.on;
     if (request.type === "flags") this.wantsFlags = request.on;
+    if (request.type === "gpu") this.basis.limits = request.limits;
     if (request.type === "close") this.abort.abort(new Error("closed"));
     if (request.type === "seek") {
       this.sought = request.frame;
@@ -157,24 +160,48 @@ export class FeedSession {
     this.vertexCount = view.vertexCount;
     this.sourceVertices = view.sourceVertices.slice();
     this.toldFlags = -1;
+    this.basis.forget();
     const mesh = { ...view, parts: decoder.parts(), attributes };
     this.post({ type: "mesh", id: this.request.id, mesh }, []);
   }
 
   private tellFrame({ decoder, frameNumber }: Stream): void {
-    const positions = new Float32Array(3 * this.vertexCount);
-    decoder.copyViewPositions(positions);
     const gop = decoder.gop().firstFrame;
-    const frame: FeedFrame = { turn: this.turn, lap: this.lap, number: frameNumber, gop, positions };
-    if (!this.hasNormals) decoder.computeViewNormals((frame.normals = new Float32Array(positions.length)));
+    const frame: FeedFrame = {
+      turn: this.turn,
+      lap: this.lap,
+      number: frameNumber,
+      gop,
+      ...(this.rowsOf(decoder) ?? this.positionsOf(decoder)),
+    };
     if (this.animated.length > 0) frame.values = this.animated.map((attribute) => this.valuesOf(decoder, attribute));
     if (this.wantsFlags && this.toldFlags !== gop) frame.flags = this.flagsOf(decoder);
     this.toldFlags = this.wantsFlags ? gop : -1;
     --this.asked;
     this.lastFrame = Math.max(this.lastFrame, frameNumber);
-    const arrays = [positions, frame.normals, frame.flags, ...(frame.values ?? [])];
+    const arrays = [frame.positions, frame.rows, frame.normals, frame.flags, ...(frame.values ?? [])];
     const transfer = arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : []));
     this.post({ type: "frame", id: this.request.id, frame }, transfer);
+  }
+
+  private positionsOf(decoder: Decoder): Pick<FeedFrame, "positions" | "normals"> {
+    const positions = new Float32Array(3 * this.vertexCount);
+    decoder.copyViewPositions(positions);
+    if (this.hasNormals) return { positions };
+    const normals = new Float32Array(positions.length);
+    decoder.computeViewNormals(normals);
+    return { positions, normals };
+  }
+
+  /** Where a GPU makes the frame; its planes are told first where they are others. */
+  private rowsOf(decoder: Decoder): Pick<FeedFrame, "positions" | "rows"> | undefined {
+    const basis = this.basis.takes(decoder);
+    if (!basis) return undefined;
+    if (this.basis.isNews(decoder, basis)) {
+      const planes = this.basis.planes(decoder, basis, this.positionsOf(decoder));
+      this.post({ type: "planes", id: this.request.id, planes }, [planes.coefficients.buffer as ArrayBuffer]);
+    }
+    return { positions: new Float32Array(0), rows: this.basis.rows(decoder, basis) };
   }
 
   private valuesOf(decoder: Decoder, attribute: AttributeInfo): Float32Array {

@@ -60,6 +60,6 @@ export class FrameQueue {
   }
 }
 
-function bytesOf({ positions, normals, values }: FeedFrame): number {
-  return [positions, normals, ...(values ?? [])].reduce((sum, array) => sum + (array?.byteLength ?? 0), 0);
+function bytesOf({ positions, rows, normals, values }: FeedFrame): number {
+  return [positions, rows, normals, ...(values ?? [])].reduce((sum, array) => sum + (array?.byteLength ?? 0), 0);
 }

@@ -1,7 +1,8 @@
 import type { StreamSource } from "./byte_source.js";
+import { kLeastGpuLimits } from "./basis_feed.js";
 import { TvgError } from "./errors.js";
 import { type FeedHost, LocalHost, nextFeedId } from "./feed.js";
-import type { FeedAnswer, FeedFrame, FeedMesh } from "./feed_messages.js";
+import type { FeedAnswer, FeedFrame, FeedMesh, FeedPlanes, GpuLimits } from "./feed_messages.js";
 import { FrameQueue, isFrame } from "./frame_queue.js";
 import { compileModule, type ModuleSource } from "./module.js";
 import type { StreamProgress } from "./stream.js";
@@ -23,6 +24,8 @@ export interface PlayerOptions {
   live?: boolean;
   /** Seconds that a live stream that plays may fall behind before it goes to the newest frames; 3 unless set. */
   mostBehind?: number;
+  /** What TvgPlayer.gpu is at first: true for what every WebGL2 has. */
+  gpu?: boolean | GpuLimits;
 }
 
 /** Of a live stream that does not play: seconds and bytes of frames kept at most. */
@@ -53,6 +56,17 @@ export class TvgPlayer extends EventTarget {
     this.flags = undefined;
     this.host.send({ type: "flags", id: this.id, on });
     if (on && !this.live && this.frame) this.currentTime = this.time;
+  }
+  /**
+   * Whether frames in mode "basis" come as `rows` and `planes` for a GPU to make, where these are within the limits;
+   * all others come as positions still.
+   */
+  get gpu(): GpuLimits | undefined {
+    return this.gpuLimits;
+  }
+  set gpu(limits: GpuLimits | undefined) {
+    this.gpuLimits = limits;
+    this.host.send({ type: "gpu", id: this.id, limits });
   }
   playbackRate = 1;
   paused = true;
@@ -87,6 +101,9 @@ export class TvgPlayer extends EventTarget {
   private waits = true;
   private loops = false;
   private flagsWanted = false;
+  private gpuLimits: GpuLimits | undefined;
+  /** Those of the frames that come. */
+  private planes: FeedPlanes | undefined;
   /** The newest frame that came. */
   private newest: FeedFrame | undefined;
   private readonly mostBehind: number;
@@ -104,6 +121,7 @@ export class TvgPlayer extends EventTarget {
     this.ahead = Math.max(2, options.ahead ?? 8);
     this.live = options.live ?? false;
     this.mostBehind = options.mostBehind ?? 3;
+    this.gpuLimits = options.gpu === true ? kLeastGpuLimits : options.gpu || undefined;
     void this.open();
   }
 
@@ -219,6 +237,7 @@ export class TvgPlayer extends EventTarget {
       };
       this.host.open(id, request, (answer) => id === this.id && this.answer(answer));
       this.host.send({ type: "flags", id, on: this.flagsWanted });
+      this.host.send({ type: "gpu", id, limits: this.gpuLimits });
       this.host.send({ type: "loop", id, on: this.loops });
       this.host.send({ type: "take", id, frames: this.ahead });
       if (this.turn > 0 && !this.live) this.currentTime = this.time;
@@ -251,7 +270,11 @@ export class TvgPlayer extends EventTarget {
       case "mesh":
         this.queue.push(answer.mesh);
         break;
+      case "planes":
+        this.planes = answer.planes;
+        break;
       case "frame":
+        if (answer.frame.rows && this.planes) answer.frame.planes = this.planes;
         if (this.live || answer.frame.turn === this.turn) this.take(answer.frame);
         else this.host.send({ type: "take", id: this.id, frames: 1 });
         if (this.seeking || this.frame === undefined) this.show();

@@ -16,6 +16,7 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
   private makeWorker: (() => Worker) | undefined;
   private options: Omit<PlayerOptions, "host" | "wasm" | "limits" | "headers"> = {};
   private readonly hosts: FeedHost[] = [];
+  private renderer: unknown;
 
   /** The folder of tvg.wasm; beside the package's script unless it is set. */
   setDecoderPath(path: string): this {
@@ -45,6 +46,12 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
   /** What players of streams loaded from now on are made with. */
   setPlayerOptions(options: Omit<PlayerOptions, "host" | "wasm" | "limits" | "headers">): this {
     this.options = options;
+    return this;
+  }
+
+  /** What draws meshes loaded from now on: where it can, its GPU makes their frames (TVGMesh.useGpu). */
+  detectSupport(renderer: unknown): this {
+    this.renderer = renderer;
     return this;
   }
 
@@ -95,6 +102,7 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
       ...(this.limits && { limits: this.limits }),
     });
     const mesh = new TVGMesh(player);
+    if (this.renderer) mesh.useGpu(this.renderer);
     const tell = (): void => onProgress?.(progressEvent(player));
     player.addEventListener("progress", tell);
     try {

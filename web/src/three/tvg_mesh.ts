@@ -1,8 +1,9 @@
 import * as THREE from "three";
-import type { FeedAttribute, FeedMesh } from "../feed_messages.js";
+import type { FeedAttribute, FeedFrame, FeedMesh, FeedPlanes } from "../feed_messages.js";
 import type { TvgPlayer } from "../player.js";
 import type { TimeRangesLike } from "../time_ranges.js";
 import { importanceColours, toLinear } from "./colours.js";
+import { GpuBasis } from "./gpu_basis.js";
 import { TVGMaterials } from "./tvg_materials.js";
 
 const kEvents = [
@@ -47,10 +48,11 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
   private own: THREE.Material[] = [];
   /** Of the animated attributes, in their order. */
   private animated: { name: string; attribute: FeedAttribute }[] = [];
-  private overlay: THREE.MeshStandardMaterial | undefined;
+  private overlay: THREE.Material | undefined;
   private ownColours: THREE.BufferAttribute | undefined;
   private overlayColours: THREE.BufferAttribute | undefined;
   private shownFlags: Uint8Array | undefined;
+  private gpu: GpuBasis | undefined;
 
   constructor(
     /** The clock and the frames. */
@@ -117,6 +119,30 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     this.showOverlay();
   }
 
+  /**
+   * Lets the GPU make frames of mode "basis": the CPU then does nothing for each vertex. False, and frames come as
+   * positions, where the renderer is not WebGLRenderer or cannot draw into textures of float32. `geometry` has the first
+   * frame of each period then. Materials must be built-in ones, and this mesh's alone; pictures may be drawn with this
+   * renderer only.
+   */
+  useGpu(renderer: unknown): boolean {
+    const limits = GpuBasis.limitsOf(renderer);
+    if (!limits || this.gpu) return this.gpu !== undefined;
+    this.gpu = new GpuBasis(renderer as THREE.WebGLRenderer);
+    this.customDepthMaterial = new THREE.MeshDepthMaterial();
+    this.customDistanceMaterial = new THREE.MeshDistanceMaterial();
+    for (const material of [...this.own, this.overlay, this.customDepthMaterial, this.customDistanceMaterial]) {
+      if (material) this.gpu.patch(material);
+    }
+    if (this.player.mesh) this.gpu.prepare(this.geometry, this.player.mesh);
+    this.player.gpu = limits;
+    return true;
+  }
+  /** What makes frames, once useGpu said so. */
+  get gpuBasis(): GpuBasis | undefined {
+    return this.gpu;
+  }
+
   /** Moves on to `now`, in milliseconds as requestAnimationFrame gives them. */
   update(now: number = performance.now()): void {
     this.player.update(this.last === undefined ? 0 : Math.max(0, now - this.last) / 1000);
@@ -129,6 +155,9 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     this.geometry.dispose();
     this.materials.dispose();
     this.overlay?.dispose();
+    this.gpu?.dispose();
+    this.customDepthMaterial?.dispose();
+    this.customDistanceMaterial?.dispose();
     for (const material of this.own) material.dispose();
   }
 
@@ -150,6 +179,7 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     });
     mesh.ranges.forEach(({ firstIndex, indexCount }, part) => geometry.addGroup(firstIndex, indexCount, part));
     this.geometry = geometry;
+    this.gpu?.prepare(geometry, mesh);
     this.ownColours = geometry.getAttribute("color") as THREE.BufferAttribute | undefined;
     this.shownFlags = undefined;
     for (const material of this.own) material.dispose();
@@ -162,16 +192,32 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     const material = this.makeMaterial?.(name) ?? this.materials.make(name, coloured);
     material.vertexColors = coloured;
     if (this.player.metadata.get("shading") === "flat") Object.assign(material, { flatShading: true });
+    this.gpu?.patch(material);
     return material;
   }
 
   private takeFrame(): void {
-    const { positions, normals, values } = this.player.frame!;
+    const { rows, planes, values } = this.player.frame!;
+    if (rows && planes && this.gpu) this.takeRows(this.gpu, rows, planes);
+    else this.takePositions(this.player.frame!);
+    values?.forEach((animated, i) => this.takeValues(i, animated));
+    this.showOverlay();
+  }
+
+  private takePositions({ positions, normals }: Pick<FeedFrame, "positions" | "normals">): void {
+    this.gpu?.off();
     this.write("position", positions);
     if (normals) this.write("normal", normals);
-    values?.forEach((animated, i) => this.takeValues(i, animated));
     this.geometry.boundingSphere = this.geometry.boundingBox = null;
-    this.showOverlay();
+  }
+
+  private takeRows(gpu: GpuBasis, rows: Float32Array, planes: FeedPlanes): void {
+    if (gpu.isNews(planes)) {
+      this.takePositions(planes);
+      this.geometry.computeBoundingSphere();
+      gpu.takePlanes(planes, this.player.mesh!, this.geometry.boundingSphere!);
+    }
+    gpu.take(rows, (this.geometry.boundingSphere ??= new THREE.Sphere()));
   }
 
   private takeValues(index: number, values: Float32Array): void {
@@ -189,7 +235,7 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     if (flags === this.shownFlags) return;
     this.shownFlags = flags;
     if (flags) {
-      this.overlay ??= new THREE.MeshStandardMaterial({ roughness: 0.75, side: THREE.DoubleSide, vertexColors: true });
+      this.overlay ??= this.newOverlay();
       const { overlay } = this;
       const colours = importanceColours(flags);
       if (this.overlayColours?.array.length !== colours.length) this.overlayColours = new THREE.BufferAttribute(colours, 3);
@@ -202,6 +248,12 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     this.material = this.own;
     if (this.ownColours) this.geometry.setAttribute("color", this.ownColours);
     else this.geometry.deleteAttribute("color");
+  }
+
+  private newOverlay(): THREE.Material {
+    const overlay = new THREE.MeshStandardMaterial({ roughness: 0.75, side: THREE.DoubleSide, vertexColors: true });
+    this.gpu?.patch(overlay);
+    return overlay;
   }
 
   private write(name: string, values: Float32Array, components = 3): void {
