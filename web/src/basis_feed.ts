@@ -76,7 +76,7 @@ export class BasisFeed {
 export function farthestFrom({ most, rows: first }: FeedPlanes, rows: Float32Array): [number, number, number] {
   const along = (axis: number): number => {
     let far = Math.abs(rows[axis]! - first[axis]!);
-    most.forEach((size, a) => (far += size * Math.abs(rows[3 * a + 3 + axis]! - first[3 * a + 3 + axis]!)));
+    for (let a = 0, at = 3 + axis; a < most.length; ++a, at += 3) far += most[a]! * Math.abs(rows[at]! - first[at]!);
     return far;
   };
   return [along(0), along(1), along(2)];

@@ -63,8 +63,10 @@ void main() {
 export function packRows(frame: Float32Array, base: Float32Array, rows: Float32Array): void {
   base.set(frame.subarray(0, 3));
   rows.fill(0);
-  for (let at = 3; at < frame.length; ++at) {
-    const component = Math.floor(at / 3) - 1;
-    rows[12 * (component >> 2) + 4 * (at % 3) + (component & 3)] = frame[at]!;
+  for (let component = 0, at = 3; at < frame.length; ++component, at += 3) {
+    const to = 12 * (component >> 2) + (component & 3);
+    rows[to] = frame[at]!;
+    rows[to + 4] = frame[at + 1]!;
+    rows[to + 8] = frame[at + 2]!;
   }
 }

@@ -116,6 +116,9 @@ test("the example for plain WebGL2 makes the positions", { skip }, async () => {
 test("figures: a frame of 100,000 vertices", { skip: skip || (!hasSheet && "TVG_GPU_SHEET names no stream") }, async (context) => {
   const page = await open("gpu.html");
   await page.waitForFunction(() => globalThis.compare);
+  for (const stream of ["basis.tvg", "sheet.tvg"]) {
+    context.diagnostic(`${stream}: ${JSON.stringify(await page.evaluate((name) => measureTake(name), stream))}`);
+  }
   context.diagnostic(JSON.stringify(await page.evaluate(() => measure("sheet.tvg"))));
   await page.close();
 });

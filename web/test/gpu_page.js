@@ -184,6 +184,25 @@ export async function readBack(player, gl) {
   return { rows: rows !== undefined, worst: worstOf(positions, frame) };
 }
 
+/** Milliseconds that a frame takes of this thread, however many vertices it has; over many, for clocks are coarse. */
+globalThis.measureTake = async (url) => {
+  const { mesh, renderer, scene, camera } = await openMesh(url, true);
+  await untilFrame(mesh.player, 5);
+  renderer.render(scene, camera);
+  const count = 200;
+  let spent = 0;
+  for (let i = 0; i < count; i += 10) {
+    const before = performance.now();
+    for (let j = 0; j < 10; ++j) mesh.takeFrame();
+    spent += performance.now() - before;
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+  const { components } = mesh.player.frame.planes;
+  mesh.dispose();
+  renderer.dispose();
+  return { take: spent / count, components };
+};
+
 /** Milliseconds of a frame: the CPU's with and without the GPU's help, and until a picture is there. */
 globalThis.measure = async (url) => {
   const result = {};

@@ -71,6 +71,10 @@ export class GpuBasis {
     this.triangle = new THREE.Mesh(new THREE.BufferGeometry().setAttribute("position", corners), this.positionsPass);
     this.triangle.frustumCulled = false;
     this.scene.add(this.triangle);
+    // Nothing of it moves.
+    for (const object of [this.scene, this.camera, this.triangle]) {
+      object.matrixAutoUpdate = object.matrixWorldAutoUpdate = false;
+    }
     this.normalsPass.fragmentShader = kNormalsShader;
     renderer.domElement.addEventListener("webglcontextrestored", this.redraw);
   }
