@@ -6,13 +6,12 @@ import { tmpdir } from "node:os";
 import { extname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
+import { hasChromium, launch } from "./chromium.mjs";
 import { packageFolder } from "./toolbox.mjs";
 
 const web = fileURLToPath(new URL("..", import.meta.url));
-const browserPath = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find(existsSync);
-const { chromium } = await import("playwright-core").catch(() => ({}));
 const hasThree = existsSync(join(web, "node_modules/three")) && existsSync(join(packageFolder, "dist/three/index.js"));
-const skip = !hasThree ? "npm ci was not run in web/" : !browserPath || !chromium ? "there is no chromium" : false;
+const skip = !hasThree ? "npm ci was not run in web/" : !hasChromium ? "there is no chromium" : false;
 
 const kMap = `<script type="importmap">{ "imports": {
   "three": "./node_modules/three/build/three.module.js",
@@ -52,10 +51,7 @@ before(async () => {
   const example = readFileSync(join(folder, "index.html"), "utf8");
   writeFileSync(join(folder, "index.html"), example.replace(/<script type="importmap">[^]*?<\/script>/, kMap));
   await new Promise((ready) => server.listen(0, "127.0.0.1", ready));
-  browser = await chromium.launch({
-    executablePath: browserPath,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
-  });
+  browser = await launch();
 });
 after(async () => {
   await browser?.close();
