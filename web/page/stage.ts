@@ -23,6 +23,7 @@ export class Stage {
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    mesh.useGpu(this.renderer);
     this.controls = this.newControls();
     const key = new THREE.DirectionalLight(new THREE.Color(0.98, 0.91, 0.8), Math.PI);
     key.position.set(-0.5, 0.66, 0.56);
