@@ -1,6 +1,6 @@
 // What gpu.test.mjs runs in a page.
 import * as THREE from "three";
-import { TvgPlayer, TvgStream } from "tvg";
+import { LocalHost, TvgPlayer, TvgStream } from "tvg";
 import { TVGMesh } from "tvg/three";
 
 const kSize = 256;
@@ -70,8 +70,29 @@ const untilFrame = (player, number) =>
   });
 const untilReady = (player) => new Promise((resolve) => player.addEventListener("canplay", resolve, { once: true }));
 
-async function openMesh(url, useGpu, makeMaterial) {
-  const mesh = new TVGMesh(new TvgPlayer(url), makeMaterial);
+/** Tells of meshes as if each vertex had two values of an attribute: render vertices of the second half of the faces are others. */
+class SeamHost extends LocalHost {
+  open(id, request, answer) {
+    super.open(id, request, (told) => {
+      if (told.type === "mesh") told.mesh = withSeam(told.mesh);
+      if (told.type === "planes") twice(told.planes);
+      if (told.type === "frame") twice(told.frame);
+      answer(told);
+    });
+  }
+}
+function withSeam(mesh) {
+  const { vertexCount, sourceVertices } = mesh;
+  const half = mesh.indices.length / 6;
+  const indices = mesh.indices.map((vertex, i) => vertex + (i / 3 < half ? 0 : vertexCount));
+  return { ...mesh, vertexCount: 2 * vertexCount, indices, sourceVertices: Uint32Array.of(...sourceVertices, ...sourceVertices) };
+}
+function twice(frame) {
+  for (const name of ["positions", "normals"]) if (frame[name]) frame[name] = Float32Array.of(...frame[name], ...frame[name]);
+}
+
+async function openMesh(url, useGpu, makeMaterial, host = new LocalHost()) {
+  const mesh = new TVGMesh(new TvgPlayer(url, { host }), makeMaterial);
   const view = newScene(mesh);
   if (useGpu && !mesh.useGpu(view.renderer)) throw new Error("the GPU cannot");
   await untilReady(mesh.player);
@@ -80,10 +101,11 @@ async function openMesh(url, useGpu, makeMaterial) {
 }
 
 /** Every frame of a stream drawn with and without the GPU. */
-globalThis.compare = async (url) => {
+globalThis.compare = async (url, hasSeam = false) => {
   const expected = await framesOf(url);
-  const own = await openMesh(url, false);
-  const gpu = await openMesh(url, true);
+  const host = () => (hasSeam ? new SeamHost() : new LocalHost());
+  const own = await openMesh(url, false, undefined, host());
+  const gpu = await openMesh(url, true, undefined, host());
   let made = 0;
   let worst = 0;
   let pixels = 0;
