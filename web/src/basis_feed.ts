@@ -56,8 +56,8 @@ export class BasisFeed {
         most[at] = Math.max(most[at]!, Math.abs(values[i]!));
       }
     }
-    const rows = this.rows(decoder, basis);
-    return { components, vertexCount, width, height, layers, coefficients, most: most.slice(0, components), rows, ...frame };
+    const shape = { components, vertexCount, width, height, layers };
+    return { ...shape, coefficients, most: most.slice(0, components), rows: this.rows(decoder, basis), ...frame };
   }
 
   rows(decoder: Decoder, { components }: BasisInfo): Float32Array {

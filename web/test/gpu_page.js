@@ -115,7 +115,7 @@ globalThis.compare = async (url, hasSeam = false) => {
     await untilFrame(gpu.mesh.player, number);
     if (gpu.mesh.player.frame.rows) {
       ++made;
-      worst = Math.max(worst, worstOf(gpu.mesh.gpuBasis.readPositions(), frame));
+      worst = Math.max(worst, worstOf(gpu.mesh.readGpuPositions(), frame));
     }
     const sphere = own.mesh.geometry.boundingSphere ?? (own.mesh.geometry.computeBoundingSphere(), own.mesh.geometry.boundingSphere);
     const bound = gpu.mesh.geometry.boundingSphere;
@@ -206,23 +206,24 @@ export async function readBack(player, gl) {
   return { rows: rows !== undefined, worst: worstOf(positions, frame) };
 }
 
+const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+
 /** Milliseconds that a frame takes of this thread, however many vertices it has; over many, for clocks are coarse. */
 globalThis.measureTake = async (url) => {
   const { mesh, renderer, scene, camera } = await openMesh(url, true);
   await untilFrame(mesh.player, 5);
   renderer.render(scene, camera);
-  const count = 200;
-  let spent = 0;
-  for (let i = 0; i < count; i += 10) {
+  const spent = [];
+  for (let i = 0; i < 40; ++i) {
     const before = performance.now();
     for (let j = 0; j < 10; ++j) mesh.takeFrame();
-    spent += performance.now() - before;
+    spent.push((performance.now() - before) / 10);
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
   const { components } = mesh.player.frame.planes;
   mesh.dispose();
   renderer.dispose();
-  return { take: spent / count, components };
+  return { take: median(spent), components };
 };
 
 /** Milliseconds of a frame: the CPU's with and without the GPU's help, and until a picture is there. */
@@ -256,7 +257,6 @@ globalThis.measure = async (url) => {
       cpu.push([taken - before, called - taken]);
       drawn.push(done - before);
     }
-    const median = (values) => values.sort((a, b) => a - b)[values.length >> 1];
     result[useGpu ? "gpu" : "positions"] = {
       take: median(cpu.map(([take]) => take)),
       render: median(cpu.map(([, render]) => render)),

@@ -1,5 +1,5 @@
-// A stream in mode basis without any library: the planes of a period are a texture array, a frame is a few uniforms, and
-// the vertex shader makes the positions. Streams in other modes come as positions, which this draws too.
+// A stream in mode basis without any library: the planes of a period are a texture array, a frame is a few uniforms,
+// and the vertex shader makes the positions. Streams in other modes come as positions, which this draws too.
 import { LocalHost, TvgPlayer, WorkerHost } from "tvg";
 import { cameraAround } from "./camera.js";
 
@@ -24,7 +24,8 @@ void main() {
   int width = isShort ? textureSize(shortPlanes, 0).x : textureSize(floatPlanes, 0).x;
   ivec2 at = ivec2(int(vertex) % width, int(vertex) / width);
   for (int layer = 0; layer < layers; ++layer) {
-    vec4 four = isShort ? vec4(texelFetch(shortPlanes, ivec3(at, layer), 0)) : texelFetch(floatPlanes, ivec3(at, layer), 0);
+    ivec3 texel = ivec3(at, layer);
+    vec4 four = isShort ? vec4(texelFetch(shortPlanes, texel, 0)) : texelFetch(floatPlanes, texel, 0);
     place += four * rows[layer];
   }
   gl_Position = camera * vec4(place, 1.0);
@@ -53,9 +54,8 @@ gl.linkProgram(program);
 if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
 gl.useProgram(program);
 gl.enable(gl.DEPTH_TEST);
-const uniform = Object.fromEntries(
-  ["shortPlanes", "floatPlanes", "layers", "isShort", "base", "rows", "camera"].map((name) => [name, gl.getUniformLocation(program, name)]),
-);
+const names = ["shortPlanes", "floatPlanes", "layers", "isShort", "base", "rows", "camera"];
+const uniform = Object.fromEntries(names.map((name) => [name, gl.getUniformLocation(program, name)]));
 gl.uniform1i(uniform.shortPlanes, 0);
 gl.uniform1i(uniform.floatPlanes, 1);
 

@@ -48,7 +48,11 @@ export class GpuBasis {
     base: { value: new Float32Array(3) },
     rows: { value: new Float32Array(0) },
   });
-  private readonly normalsPass = passMaterial({ positions: { value: null }, fans: { value: null }, corners: { value: null } });
+  private readonly normalsPass = passMaterial({
+    positions: { value: null },
+    fans: { value: null },
+    corners: { value: null },
+  });
   private planes: FeedPlanes | undefined;
   private texture: THREE.DataArrayTexture | undefined;
   private positions: THREE.WebGLRenderTarget | undefined;
@@ -120,7 +124,8 @@ export class GpuBasis {
     const isShort = coefficients instanceof Int16Array;
     const texture = this.texture;
     const { image } = texture ?? {};
-    if (texture && image?.width === width && image.height === height && image.depth === layers && (texture.type === THREE.ShortType) === isShort) {
+    const hasKind = texture && (texture.type === THREE.ShortType) === isShort;
+    if (hasKind && image?.width === width && image.height === height && image.depth === layers) {
       texture.image.data = coefficients as Float32Array<ArrayBuffer>;
     } else {
       texture?.dispose();
@@ -149,9 +154,10 @@ export class GpuBasis {
     sphere.radius += Math.hypot(...farthestFrom(this.planes!, rows));
   }
 
-  /** [vertex of the mesh][xyz], read back from the GPU: slow, for tests and for who must know. */
-  readPositions(): Float32Array {
-    const { width, height, vertexCount } = this.planes!;
+  /** [vertex of the mesh][xyz], read back; undefined before there are any. */
+  readPositions(): Float32Array | undefined {
+    if (!this.planes) return undefined;
+    const { width, height, vertexCount } = this.planes;
     const texels = new Float32Array(4 * width * height);
     this.renderer.readRenderTargetPixels(this.positions!, 0, 0, width, height, texels);
     return Float32Array.from({ length: 3 * vertexCount }, (_, i) => texels[4 * Math.floor(i / 3) + (i % 3)]!);
@@ -216,8 +222,15 @@ export class GpuBasis {
   }
 }
 
-/** [vertex]: where its faces begin in `corners`, and how many; [vertex's face]: the other two corners, in order. */
-function fansOf(mesh: FeedMesh, vertexCount: number, texels: number): { fans: Uint32Array; corners: Uint32Array; cornerTexels: { width: number; height: number } } {
+interface Fans {
+  /** [vertex]: where its faces begin in `corners`, and how many. */
+  fans: Uint32Array;
+  /** [vertex's face]: the other two corners, in order. */
+  corners: Uint32Array;
+  cornerTexels: { width: number; height: number };
+}
+
+function fansOf(mesh: FeedMesh, vertexCount: number, texels: number): Fans {
   const { indices, sourceVertices } = mesh;
   const fans = new Uint32Array(2 * texels);
   for (const index of indices) ++fans[2 * sourceVertices[index]! + 1]!;
@@ -241,7 +254,8 @@ function fansOf(mesh: FeedMesh, vertexCount: number, texels: number): { fans: Ui
 }
 
 function pairTexture(values: Uint32Array, width: number, height: number): THREE.DataTexture {
-  const texture = new THREE.DataTexture(values as Uint32Array<ArrayBuffer>, width, height, THREE.RGIntegerFormat, THREE.UnsignedIntType);
+  const data = values as Uint32Array<ArrayBuffer>;
+  const texture = new THREE.DataTexture(data, width, height, THREE.RGIntegerFormat, THREE.UnsignedIntType);
   texture.internalFormat = "RG32UI";
   texture.needsUpdate = true;
   return texture;

@@ -138,9 +138,9 @@ export class TVGMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material[], 
     this.player.gpu = limits;
     return true;
   }
-  /** What makes frames, once useGpu said so. */
-  get gpuBasis(): GpuBasis | undefined {
-    return this.gpu;
+  /** [vertex of the mesh][xyz] of a frame that the GPU made, which takes long; undefined of another. */
+  readGpuPositions(): Float32Array | undefined {
+    return this.player.frame?.rows && this.gpu?.readPositions();
   }
 
   /** Moves on to `now`, in milliseconds as requestAnimationFrame gives them. */
