@@ -1,6 +1,6 @@
 # The C interface, tvg.h: libtvg.so, which exports nothing else; libtvg.a with BUILD_SHARED_LIBS=OFF and where nothing
 # is shared; a WebAssembly module beside it with Emscripten.
-set(tvg_c_sources c_api/decoder.cpp c_api/decoder_properties.cpp)
+set(tvg_c_sources c_api/decoder.cpp c_api/decoder_basis.cpp c_api/decoder_properties.cpp)
 if(TVG_BUILD_ENCODER)
   list(APPEND tvg_c_sources c_api/encoder.cpp c_api/encoder_properties.cpp c_api/unpack.cpp)
 else()

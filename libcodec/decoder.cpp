@@ -348,6 +348,19 @@ void Decoder::copy_lattice(std::span<std::int32_t> indices) const {
 void Decoder::copy_flags(std::span<std::uint8_t> flags) const {
   state_->gop.copy_flags(flags);
 }
+BasisInfo Decoder::basis() const {
+  const BasisDecoder* const basis = state_->gop.basis();
+  return basis == nullptr ? BasisInfo() : basis->basis();
+}
+void Decoder::copy_planes(std::size_t group, std::span<float> values) const {
+  state_->gop.basis()->copy_planes(group, values);
+}
+void Decoder::copy_planes(std::size_t group, std::span<std::int16_t> values) const {
+  state_->gop.basis()->copy_planes(group, values);
+}
+void Decoder::copy_rows(std::span<float> rows) const {
+  state_->gop.basis()->copy_rows(rows);
+}
 const Damage& Decoder::damage() const {
   return state_->damage;
 }

@@ -53,6 +53,7 @@ tvg_event event_of(tvg_decoder& handle, Decoder::Event event) {
       return TVG_EVENT_FRAME;
     case Decoder::Event::kDamage:
       handle.has_damage = true;
+      handle.has_gop = false;  // the one that is lost may have been begun, and is not told of
       handle.damage_text = decoder.damage().error.describe();
       return TVG_EVENT_DAMAGE;
     case Decoder::Event::kEnd:

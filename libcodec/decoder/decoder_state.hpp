@@ -84,6 +84,7 @@ class Decoder::State {
   std::array<std::optional<Event>, 2> deferred_;
   std::uint64_t gop_end_ = 0;  ///< number of the frame behind the GOP being read; 0 outside
   StreamMap map_;
+  std::uint64_t plans_made_ = 0;
   std::optional<std::uint64_t> target_;  ///< the frame sought: frames before it are not given out
   std::vector<std::uint64_t>
       needed_;  ///< where meshes and planes begin that the way there leads over, ascending

@@ -61,6 +61,7 @@ Result<PlanPart> Decoder::State::decode_plan_read(const CodedMesh& coded, std::s
                         reader.head().limits, most_components);
   if (!plan) return plan.error();
   if (!can_allocate(kSmallThings)) return out_of_memory();
+  plan->number = ++plans_made_;
   result.plan = std::make_shared<const BasisPlan>(std::move(*plan));
   return result;
 }

@@ -127,4 +127,51 @@ void BasisDecoder::copy_flags(std::span<std::uint8_t> flags) const {
       [&](std::uint32_t t, std::uint32_t v) { flags[v] = plan_->flagged(t) ? 1 : 0; });
 }
 
+BasisInfo BasisDecoder::basis() const {
+  if (plan_ == nullptr) return {};
+  const CoefficientPlanes& planes = plan_->planes;
+  BasisInfo info{plan_->number, static_cast<std::uint32_t>(planes.component_count()), 0};
+  for (std::size_t a = 0; a < planes.component_count(); ++a) info.most = std::max(info.most, planes.most(a));
+  return info;
+}
+
+template <class Number>
+void BasisDecoder::copy_planes(std::size_t group, std::span<Number> values) const {
+  const CoefficientPlanes& planes = plan_->planes;
+  const std::span<const std::uint32_t> order = plan_->order();
+  const auto place = [&](std::size_t v) { return values.data() + 4 * (order.empty() ? v : order[v]); };
+  const std::size_t pairs = std::min<std::size_t>(2, planes.pair_count() - 2 * group);
+  for (std::size_t v = 0; v < planes.vertex_count(); ++v) {
+    const auto* const block = planes.pairs(v / CoefficientPlanes::kAtOnce) + 2 * group;
+    for (std::size_t pair = 0; pair < 2; ++pair) {
+      const CoefficientPlanes::Pair both =
+          pair < pairs ? block[pair][v % CoefficientPlanes::kAtOnce] : CoefficientPlanes::Pair{};
+      place(v)[2 * pair] = both[0];
+      place(v)[2 * pair + 1] = both[1];
+    }
+  }
+  for (const CoefficientPlanes::Large& large : planes.large()) {
+    if (large.component / 4 != group) continue;
+    for (std::size_t v = 0; v < planes.vertex_count(); ++v)
+      place(v)[large.component % 4] = static_cast<Number>(large.values[v]);
+  }
+}
+
+template void BasisDecoder::copy_planes(std::size_t group, std::span<float> values) const;
+template void BasisDecoder::copy_planes(std::size_t group, std::span<std::int16_t> values) const;
+
+// format-spec §7.8.5
+void BasisDecoder::copy_rows(std::span<float> rows) const {
+  const BasisHeader& basis = plan_->header;
+  constexpr double kLargest = std::numeric_limits<float>::max();
+  const double scale = std::ldexp(basis.step, -basis.fraction_bits);
+  for (std::size_t row = 0; row <= plan_->planes.component_count(); ++row) {
+    const auto factor = static_cast<double>(basis.scale(row).factor());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = rows_[3 * row + axis] * factor * scale + (row == 0 ? basis.origin[axis] : 0);
+      rows[3 * row + axis] = static_cast<float>(std::clamp(value, -kLargest, kLargest));
+    }
+  }
+}
+
 }  // namespace tvg

@@ -39,6 +39,15 @@ class BasisDecoder {
   void copy_lattice(std::span<std::int32_t> indices) const;
   void copy_flags(std::span<std::uint8_t> flags) const;
 
+  /// Number 0 before begin().
+  BasisInfo basis() const;
+  /// The coefficients of components 4 * group and the three behind it, [vertex][4], 0 where there is none.
+  /// Number is float or, where none is larger, std::int16_t.
+  template <class Number>
+  void copy_planes(std::size_t group, std::span<Number> values) const;
+  /// What a position is the sum of: [1 + component][xyz], first what is added to all.
+  void copy_rows(std::span<float> rows) const;
+
  private:
   std::shared_ptr<const BasisPlan> plan_;
   GopInfo info_;

@@ -21,6 +21,7 @@ struct BasisPlan {
   BasisHeader header;                ///< its scales are `scales`, its flags gone
   std::vector<std::uint8_t> scales;  ///< [row]
   std::vector<std::uint8_t> flags;   ///< [traversal index]; empty where there is one lattice
+  std::uint64_t number = 0;          ///< another for each that a decoder makes, counted from 1
   CoefficientPlanes planes;          ///< in order of traversal; of a coarser mesh its vertices as they are
 
   bool flagged(std::size_t t) const { return flags.empty() || flags[t] != 0; }

@@ -67,6 +67,9 @@ class GopDecoder {
     in_mode(*this, [&](auto& mode) { mode.copy_flags(flags); });
   }
 
+  /// Null where the GOP is in another mode.
+  const BasisDecoder* basis() const { return std::get_if<BasisDecoder>(&mode_); }
+
   const AnimatedDecoder& animated() const { return animated_; }
 
  private:

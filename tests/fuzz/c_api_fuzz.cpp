@@ -109,6 +109,7 @@ class Session {
     if (event == TVG_EVENT_MESH) use_properties(false);
     if (event == TVG_EVENT_FRAME) use_properties(true);
     if (event == TVG_EVENT_FRAME) use_view();
+    if (event == TVG_EVENT_FRAME) use_basis();
     if (event == TVG_EVENT_DATA) use_data();
     if (event == TVG_EVENT_ERROR) require(decoder_.error_code() != TVG_OK && !decoder_.error_text().empty());
     if (event == TVG_EVENT_DAMAGE) require(decoder_.damage() && std::strlen(decoder_.damage()->text) > 0);
@@ -157,6 +158,20 @@ class Session {
       require(decoder_.copy_view_attribute(i, rows.data(), rows.size()) == TVG_OK);
   }
 
+  /// Every plane and row can be had.
+  void use_basis() {
+    const auto basis = decoder_.basis();
+    if (!basis) return;
+    std::vector<float> room(std::max<std::size_t>(4 * basis->vertex_count, 3 * (1 + basis->component_count)));
+    std::vector<std::int16_t> shorts(4 * std::size_t{basis->vertex_count});
+    require(decoder_.copy_rows(room.data(), room.size()) == TVG_OK);
+    for (std::uint32_t group = 0; 4 * group < basis->component_count; ++group) {
+      require(decoder_.copy_planes(group, room.data(), room.size()) == TVG_OK);
+      const tvg_code code = decoder_.copy_short_planes(group, shorts.data(), shorts.size());
+      require((code == TVG_OK) == (basis->most <= 32767));
+    }
+  }
+
   void use_data() {
     const auto data = decoder_.data();
     require(data && std::strlen(data->name) > 0 && data->packed_size <= data->size);
@@ -174,6 +189,9 @@ class Session {
     decoder_.copy_flags(flags.data(), flags.size());
     (void)decoder_.stream();
     (void)decoder_.gop();
+    (void)decoder_.basis();
+    decoder_.copy_planes(0, room.data(), room.size());
+    decoder_.copy_rows(room.data(), room.size());
     (void)decoder_.frame();
     (void)decoder_.damage();
     (void)decoder_.metadata("fps");

@@ -1,11 +1,12 @@
+import { DecoderCalls } from "./decoder_calls.js";
 import { errorCodeName, TvgError, type TvgErrorCode } from "./errors.js";
-import { writeLimits } from "./limits.js";
 import type { TvgModule } from "./module.js";
 import { kDomains, kEvents, kKinds, kModes } from "./names.js";
 import * as layout from "./structures.js";
 import { Structure, textAt } from "./structures.js";
 import type {
   AttributeInfo,
+  BasisInfo,
   DamageInfo,
   DecoderEvent,
   DecoderLimits,
@@ -22,38 +23,15 @@ import type {
  * The decoder of tvg.h: bytes go in as they arrive, events come out, frames are written into the caller's arrays. It
  * opens no connection; `TvgStream` does that. Every function throws `TvgError`; `dispose` gives the memory back.
  */
-export class Decoder {
-  private handle: number;
-  /** Room for one structure and for what goes in and out, in the module's memory. */
-  private readonly structure: number;
-  private scratch = 0;
-  private scratchBytes = 0;
-
+export class Decoder extends DecoderCalls {
   /** What `limits` leaves out is as in tvg.h. */
-  constructor(
-    readonly module: TvgModule,
-    limits: DecoderLimits = {},
-  ) {
-    this.structure = module.exports.malloc(layout.kLargestStructureBytes);
-    if (this.structure === 0) throw outOfMemory();
-    const { exports } = module;
-    this.at(layout.kLimitsBytes);
-    exports.tvg_limits_init(this.structure);
-    writeLimits(new Structure(module, this.structure, layout.kLimitsBytes), limits);
-    this.handle = exports.tvg_decoder_create(this.structure);
-    if (this.handle === 0) {
-      exports.free(this.structure);
-      throw outOfMemory();
-    }
+  constructor(module: TvgModule, limits: DecoderLimits = {}) {
+    super(module, limits);
   }
 
   /** Gives back what the decoder holds; it must not be used any more. May be called again. */
-  dispose(): void {
-    if (this.handle === 0) return;
-    this.module.exports.tvg_decoder_destroy(this.handle);
-    this.module.exports.free(this.structure);
-    this.module.exports.free(this.scratch);
-    this.handle = this.scratch = this.scratchBytes = 0;
+  override dispose(): void {
+    super.dispose();
   }
 
   /** Takes the next bytes of the stream; they are copied. */
@@ -318,6 +296,39 @@ export class Decoder {
     this.check(this.module.exports.tvg_decoder_use_lod(this.alive(), lod));
   }
 
+  /**
+   * The planes that the frames of this group are sums of (mode "basis"), so that a GPU can make them; undefined in other
+   * modes. As `gop`. Positions are made when they are asked for: who takes rows in their place saves the time.
+   */
+  basis(): BasisInfo | undefined {
+    if (this.gop().mode !== "basis") return undefined;
+    const info = this.get(layout.kBasisBytes, this.module.exports.tvg_decoder_get_basis);
+    return { number: info.u64(8), vertexCount: info.u32(16), components: info.u32(20), most: info.u32(24) };
+  }
+
+  /**
+   * The coefficients of planes 4 * group to 4 * group + 3, [vertex][4], into `to`, 4 * vertexCount long; 0 for planes
+   * that are not there. 16 bits hold them where `most` is below 32768.
+   */
+  copyPlanes(group: number, to: Float32Array | Int16Array): void {
+    const { exports } = this.module;
+    const from = this.room(to.byteLength);
+    const isShort = to instanceof Int16Array;
+    const copy = isShort ? exports.tvg_decoder_copy_short_planes : exports.tvg_decoder_copy_planes;
+    this.check(copy(this.alive(), group, from, to.length));
+    to.set(new (isShort ? Int16Array : Float32Array)(exports.memory.buffer, from, to.length));
+  }
+
+  /**
+   * What the frame's planes are multiplied by, [1 + component][xyz]: vertex v is at the first row and the sum of its
+   * coefficients times the row of each.
+   */
+  copyRows(to: Float32Array): void {
+    this.copyFloats(to, 12, (at, size) =>
+      this.module.exports.tvg_decoder_copy_rows(this.alive(), at, size / 4),
+    );
+  }
+
   private attribute(index: number): AttributeInfo {
     const info = this.get(layout.kAttributeBytes, (decoder, at) =>
       this.module.exports.tvg_decoder_get_attribute(decoder, index, at),
@@ -334,66 +345,4 @@ export class Decoder {
       name: textAt(this.module, name) ?? "",
     };
   }
-
-  private alive(): number {
-    if (this.handle === 0) throw new TvgError("wrong-state", "the decoder was disposed of");
-    return this.handle;
-  }
-
-  private check(code: number): void {
-    if (code === 0) return;
-    const name = errorCodeName(code);
-    const { exports } = this.module;
-    const told = errorCodeName(exports.tvg_decoder_error_code(this.handle)) === name;
-    const text = told ? textAt(this.module, exports.tvg_decoder_error_text(this.handle)) : undefined;
-    throw new TvgError(name, text || `the decoder answers ${name}`);
-  }
-
-  private at(bytes: number): Structure {
-    return new Structure(this.module, this.structure, bytes).setSize();
-  }
-
-  private get(bytes: number, fill: (decoder: number, at: number) => number): Structure {
-    this.at(bytes);
-    this.check(fill(this.alive(), this.structure));
-    return new Structure(this.module, this.structure, bytes);
-  }
-
-  /** At least so many bytes of the module's memory, until the next call. */
-  private room(bytes: number): number {
-    if (bytes <= this.scratchBytes) return this.scratch;
-    const { exports } = this.module;
-    exports.free(this.scratch);
-    this.scratch = exports.malloc(bytes);
-    this.scratchBytes = this.scratch === 0 ? 0 : bytes;
-    if (this.scratch === 0) throw outOfMemory();
-    return this.scratch;
-  }
-
-  private bytesAt(pointer: number, count: number): Uint8Array {
-    return new Uint8Array(this.module.exports.memory.buffer, pointer, count);
-  }
-
-  private numbersAt(pointer: number, count: number): Uint32Array {
-    return new Uint32Array(this.module.exports.memory.buffer, pointer, count).slice();
-  }
-
-  private copyFloats(to: Float32Array, stride: number, copy: (at: number, size: number) => number): void {
-    if (to.byteLength % stride !== 0) {
-      throw new TvgError("invalid-argument", `${to.length} numbers are no whole count of values`);
-    }
-    const from = this.room(to.byteLength);
-    this.check(copy(from, to.byteLength));
-    to.set(new Float32Array(this.module.exports.memory.buffer, from, to.length));
-  }
-
-  private copyNumbers(to: Uint32Array, copy: (at: number, count: number) => number): void {
-    const from = this.room(to.byteLength);
-    this.check(copy(from, to.length));
-    to.set(new Uint32Array(this.module.exports.memory.buffer, from, to.length));
-  }
-}
-
-function outOfMemory(): TvgError {
-  return new TvgError("out-of-memory", "there is no memory for a decoder");
 }

@@ -5,6 +5,8 @@ import { FeedSession } from "./feed_session.js";
 export interface FeedHost {
   /** How many streams it has open. */
   readonly load: number;
+  /** Whether nothing can be opened any more. */
+  readonly isBroken: boolean;
   open(id: number, request: Extract<FeedRequest, { type: "open" }>, answer: (answer: FeedAnswer) => void): void;
   send(request: FeedRequest): void;
   dispose(): void;
@@ -19,6 +21,7 @@ export function nextFeedId(): number {
 /** Decodes on the calling thread: where there are no workers, and in Node. */
 export class LocalHost implements FeedHost {
   private readonly sessions = new Map<number, FeedSession>();
+  readonly isBroken = false;
   get load(): number {
     return this.sessions.size;
   }
@@ -37,18 +40,24 @@ export class LocalHost implements FeedHost {
 /** Decodes in a worker. */
 export class WorkerHost implements FeedHost {
   private readonly answers = new Map<number, (answer: FeedAnswer) => void>();
+  /** Why the worker does nothing any more. */
+  private broken: string | undefined;
 
   constructor(private readonly worker: Worker) {
     worker.onmessage = ({ data }: MessageEvent<FeedAnswer>) => this.answers.get(data.id)?.(data);
     worker.onerror = (event) => {
-      const message = event.message || "the worker could not be started";
+      const message = (this.broken = event.message || "the worker could not be started");
       for (const [id, answer] of this.answers) answer({ type: "error", id, code: "io", message });
     };
   }
   get load(): number {
     return this.answers.size;
   }
+  get isBroken(): boolean {
+    return this.broken !== undefined;
+  }
   open(id: number, request: Extract<FeedRequest, { type: "open" }>, answer: (answer: FeedAnswer) => void): void {
+    if (this.broken !== undefined) return answer({ type: "error", id, code: "io", message: this.broken });
     this.answers.set(id, answer);
     this.worker.postMessage(request);
   }

@@ -49,6 +49,10 @@ export interface TvgExports {
     size: number,
     stride: number,
   ): number;
+  tvg_decoder_get_basis(decoder: number, info: number): number;
+  tvg_decoder_copy_planes(decoder: number, group: number, to: number, count: number): number;
+  tvg_decoder_copy_short_planes(decoder: number, group: number, to: number, count: number): number;
+  tvg_decoder_copy_rows(decoder: number, to: number, count: number): number;
   tvg_decoder_get_data(decoder: number, info: number): number;
   tvg_decoder_copy_data(decoder: number, to: number, size: number): number;
 }

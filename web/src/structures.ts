@@ -15,6 +15,7 @@ export const kPartBytes = 16;
 export const kViewBytes = 28;
 export const kViewRangeBytes = 12;
 export const kDataBytes = 32;
+export const kBasisBytes = 32;
 /** None of the above is larger. */
 export const kLargestStructureBytes = 64;
 

@@ -86,6 +86,17 @@ export interface GopInfo {
   components: number;
 }
 
+/** The planes that frames of mode "basis" are sums of: one whole number for each vertex each. */
+export interface BasisInfo {
+  /** Those of the same number are the same, for this decoder. */
+  number: number;
+  vertexCount: number;
+  /** Planes, as many as are decoded. */
+  components: number;
+  /** No coefficient is larger in size; at most 2^24. */
+  most: number;
+}
+
 export interface FrameInfo {
   /** Position in the stream, counted from 0; lost frames count. */
   number: number;

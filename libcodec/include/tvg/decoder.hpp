@@ -43,6 +43,13 @@ struct GopInfo {
   std::uint64_t flag_bytes = 0;
 };
 
+/// The planes that the frames of a GOP in mode basis are sums of. A plane has a coefficient for each vertex.
+struct BasisInfo {
+  std::uint64_t number = 0;      ///< of the planes, from 1: those of the same number are the same
+  std::uint32_t components = 0;  ///< planes that are decoded (Decoder::use_components())
+  std::int32_t most = 0;         ///< no coefficient is larger in size; at most 2^24
+};
+
 /// A chunk as it stands in the stream.
 struct ChunkInfo {
   std::string type;          ///< four characters
@@ -185,6 +192,19 @@ class Decoder {
   std::uint64_t animated_bytes(std::size_t attribute) const;
   /// Importance of each vertex in the current GOP, 0 or 1. vertex_count values.
   void copy_flags(std::span<std::uint8_t> flags) const;
+
+  /// For who has a GPU make the sums: the planes of the current GOP, number 0 where it is in another mode.
+  /// Frames are not made before copy_positions(), so that a reader that takes their rows instead saves the
+  /// time; the digest of mode basis is over the rows and is compared all the same.
+  BasisInfo basis() const;
+  /// Writes coefficients of the current GOP, whole numbers: of components 4 * `group` to 4 * `group` + 3,
+  /// [vertex][4], 0 for those there are none of. 4 * vertex_count values; basis().most must fit them.
+  void copy_planes(std::size_t group, std::span<float> values) const;
+  void copy_planes(std::size_t group, std::span<std::int16_t> values) const;
+  /// Writes what the current frame multiplies the planes by, [1 + component][xyz], in the mesh's units:
+  /// vertex v is at rows[0] + the sum of all coefficients of v times the row of their component. 3 * (1 +
+  /// components) values.
+  void copy_rows(std::span<float> rows) const;
 
   const Damage& damage() const;
   const Error& error() const;

@@ -94,6 +94,20 @@ class StreamDecoder {
                                            row_of(attribute));
   }
 
+  /// The planes of the GOP (tvg_basis.h); nothing where it is in another mode.
+  std::optional<tvg_basis_info> basis() const { return read<tvg_basis_info>(tvg_decoder_get_basis); }
+  /// [vertex][4], into `count` numbers.
+  tvg_code copy_planes(std::uint32_t group, float* coefficients, std::size_t count) const {
+    return tvg_decoder_copy_planes(get(), group, coefficients, count);
+  }
+  tvg_code copy_short_planes(std::uint32_t group, std::int16_t* coefficients, std::size_t count) const {
+    return tvg_decoder_copy_short_planes(get(), group, coefficients, count);
+  }
+  /// [1 + component][xyz], into `count` floats.
+  tvg_code copy_rows(float* rows, std::size_t count) const {
+    return tvg_decoder_copy_rows(get(), rows, count);
+  }
+
   /// Free-form data, with TVG_EVENT_DATA.
   std::optional<tvg_data_info> data() const { return read<tvg_data_info>(tvg_decoder_get_data); }
   tvg_code copy_data(void* bytes, std::size_t size) { return tvg_decoder_copy_data(get(), bytes, size); }

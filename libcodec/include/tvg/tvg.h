@@ -1,6 +1,6 @@
-/* Decoding and encoding .tvg streams from C (C99 or later), or from anything that can call C. Two headers
+/* Decoding and encoding .tvg streams from C (C99 or later), or from anything that can call C. Three headers
  * come with this one: tvg_encoder.h has encoding, tvg_properties.h attributes, parts, polygons, free-form
- * data and what graphics hardware wants.
+ * data and what graphics hardware wants, tvg_basis.h what lets a GPU make frames by itself.
  *
  * Bytes go in as they arrive, in pieces of any size; events come out; frames are written into the caller's
  * own memory. The library opens no file and no connection, starts no thread, and keeps no global state. It is
@@ -210,7 +210,7 @@ TVG_API const char* tvg_decoder_metadata(const tvg_decoder* decoder, const char*
 TVG_API const char* tvg_decoder_metadata_key(const tvg_decoder* decoder, size_t index);
 /* From TVG_EVENT_MESH on. */
 TVG_API tvg_code tvg_decoder_get_mesh(const tvg_decoder* decoder, tvg_mesh_info* mesh);
-/* From TVG_EVENT_GOP until the next GOP, mesh or seek, and with every frame. */
+/* From TVG_EVENT_GOP until the next GOP, mesh, damage or seek, and with every frame. */
 TVG_API tvg_code tvg_decoder_get_gop(const tvg_decoder* decoder, tvg_gop_info* gop);
 /* Importance of each vertex, 0 or 1, into `size` >= vertex_count bytes. As tvg_decoder_get_gop. */
 TVG_API tvg_code tvg_decoder_copy_flags(const tvg_decoder* decoder, uint8_t* flags, size_t size);
@@ -264,6 +264,7 @@ TVG_API tvg_code tvg_decoder_error_code(const tvg_decoder* decoder);
 #ifndef TVG_DECODE_ONLY
 #include <tvg/tvg_encoder.h>
 #endif
+#include <tvg/tvg_basis.h>
 #include <tvg/tvg_properties.h>
 
 #endif /* TVG_TVG_H */

@@ -3,7 +3,7 @@ import type { StreamSource } from "../byte_source.js";
 import { asTvgError } from "../errors.js";
 import { type FeedHost, LocalHost, WorkerHost } from "../feed.js";
 import { compileModule, type ModuleSource } from "../module.js";
-import { TvgPlayer } from "../player.js";
+import { type PlayerOptions, TvgPlayer } from "../player.js";
 import type { DecoderLimits } from "../types.js";
 import { TVGMesh } from "./tvg_mesh.js";
 
@@ -14,7 +14,9 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
   private workerLimit = 4;
   private limits: DecoderLimits | undefined;
   private makeWorker: (() => Worker) | undefined;
+  private options: Omit<PlayerOptions, "host" | "wasm" | "limits" | "headers"> = {};
   private readonly hosts: FeedHost[] = [];
+  private renderer: unknown;
 
   /** The folder of tvg.wasm; beside the package's script unless it is set. */
   setDecoderPath(path: string): this {
@@ -41,6 +43,17 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
     this.limits = limits;
     return this;
   }
+  /** What players of streams loaded from now on are made with. */
+  setPlayerOptions(options: Omit<PlayerOptions, "host" | "wasm" | "limits" | "headers">): this {
+    this.options = options;
+    return this;
+  }
+
+  /** What draws meshes loaded from now on: where it can, its GPU makes their frames (TVGMesh.useGpu). */
+  detectSupport(renderer: unknown): this {
+    this.renderer = renderer;
+    return this;
+  }
 
   /** Fetches and compiles the decoder before a stream needs it. */
   preload(): this {
@@ -48,16 +61,16 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
     return this;
   }
 
-  /** Gives the mesh once its first frame is there; the rest arrives while it plays. */
+  /** Gives the mesh once its first frame and its pictures are there; the rest arrives while it plays. */
   override load(
     url: string,
     onLoad: (mesh: TVGMesh) => void,
-    _onProgress?: (event: ProgressEvent) => void,
+    onProgress?: (event: ProgressEvent) => void,
     onError?: (error: unknown) => void,
   ): void {
     const address = this.manager.resolveURL(this.path + url);
     this.manager.itemStart(address);
-    this.open(address)
+    this.open(address, onProgress)
       .then(onLoad)
       .catch((error) => {
         this.manager.itemError(address);
@@ -78,19 +91,34 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
     return this;
   }
 
-  private async open(source: StreamSource): Promise<TVGMesh> {
+  private async open(source: StreamSource, onProgress?: (event: ProgressEvent) => void): Promise<TVGMesh> {
+    const wasm = await this.code();
+    const host = this.host();
     const player = new TvgPlayer(source, {
-      host: this.host(),
-      wasm: await this.code(),
+      ...this.options,
+      host,
+      wasm,
       headers: this.requestHeader,
       ...(this.limits && { limits: this.limits }),
     });
     const mesh = new TVGMesh(player);
-    await new Promise<void>((resolve, reject) => {
-      player.addEventListener("canplay", () => resolve(), { once: true });
-      player.addEventListener("error", () => reject(player.error), { once: true });
-    });
-    return mesh;
+    if (this.renderer) mesh.useGpu(this.renderer);
+    const tell = (): void => onProgress?.(progressEvent(player));
+    player.addEventListener("progress", tell);
+    try {
+      await new Promise<void>((resolve, reject) => {
+        player.addEventListener("canplay", () => resolve(), { once: true });
+        player.addEventListener("error", () => reject(player.error), { once: true });
+      });
+      await mesh.ready;
+      return mesh;
+    } catch (error) {
+      mesh.dispose();
+      if (host.isBroken) this.hosts.splice(this.hosts.indexOf(host), 1);
+      throw error;
+    } finally {
+      player.removeEventListener("progress", tell);
+    }
   }
 
   private code(): Promise<WebAssembly.Module> {
@@ -114,4 +142,9 @@ export class TVGLoader extends THREE.Loader<TVGMesh> {
       throw asTvgError(error);
     }
   }
+}
+
+function progressEvent({ progress }: TvgPlayer): ProgressEvent {
+  const { received = 0, bytes } = progress ?? {};
+  return new ProgressEvent("progress", { lengthComputable: bytes !== undefined, loaded: received, total: bytes ?? 0 });
 }

@@ -1,0 +1,142 @@
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { TVGMesh } from "../src/three/tvg_mesh.js";
+
+// The camera and the lights of `tvg render`, so that its pictures look like the page.
+const kFieldOfView = 30;
+const kMargin = 1.06;
+const kAzimuth = (30 * Math.PI) / 180;
+const kElevation = (15 * Math.PI) / 180;
+
+/** Where the mesh is looked at. Throws where there is no WebGL. */
+export class Stage {
+  readonly camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.01, 1000);
+  private controls: OrbitControls;
+  readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly sky = new THREE.HemisphereLight(new THREE.Color(0.3, 0.325, 0.36), new THREE.Color(0.13, 0.115, 0.11), Math.PI);
+  private stale = true;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly mesh: TVGMesh,
+  ) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    mesh.useGpu(this.renderer);
+    this.controls = this.newControls();
+    const key = new THREE.DirectionalLight(new THREE.Color(0.98, 0.91, 0.8), Math.PI);
+    key.position.set(-0.5, 0.66, 0.56);
+    const fill = new THREE.DirectionalLight(new THREE.Color(0.1, 0.135, 0.2), Math.PI);
+    fill.position.set(0.76, -0.08, 0.645);
+    this.camera.add(key, fill);
+    for (const light of [key, fill]) this.camera.add(light.target);
+    this.scene.add(this.camera, this.sky, mesh);
+    mesh.frustumCulled = false;
+  }
+
+  /** Another picture is to be drawn. */
+  refresh(): void {
+    this.stale = true;
+  }
+
+  /** Draws where something has changed. */
+  draw(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (size.x !== clientWidth || size.y !== clientHeight) {
+      this.renderer.setSize(clientWidth, clientHeight, false);
+      this.camera.aspect = clientWidth / Math.max(1, clientHeight);
+      this.camera.updateProjectionMatrix();
+      this.stale = true;
+    }
+    if (!this.stale || !this.mesh.player.frame) return;
+    this.stale = false;
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  /** Puts the frame into the middle of the picture, as near as its box allows, with room for so much of its radius. */
+  fit(isUpZ: boolean, room = 0.24): void {
+    const { geometry } = this.mesh;
+    geometry.computeBoundingBox();
+    const box = geometry.boundingBox!;
+    const center = box.getCenter(new THREE.Vector3());
+    const radius = box.getSize(new THREE.Vector3()).length() / 2 || 1;
+    box.expandByScalar(room * radius);
+    const up = isUpZ ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
+    this.camera.up.copy(up);
+    // They ask for the upright axis when they are made.
+    this.controls.dispose();
+    this.controls = this.newControls();
+    this.sky.position.copy(up);
+    const axes = axesOf(isUpZ);
+    const { target, distance } = fitBox(box, center, axes, this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight));
+    this.camera.position.copy(target).addScaledVector(axes.backward, distance);
+    this.camera.near = distance / 100;
+    this.camera.far = distance + 100 * radius;
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(target);
+    this.controls.update();
+    this.refresh();
+  }
+
+  private newControls(): OrbitControls {
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.addEventListener("change", () => this.refresh());
+    return controls;
+  }
+
+  /** Turns the view about the upright axis and to the top, in radians. */
+  orbit(around: number, up: number): void {
+    const { camera, controls } = this;
+    const offset = camera.position.clone().sub(controls.target);
+    const side = new THREE.Vector3().crossVectors(camera.up, offset).normalize();
+    offset.applyAxisAngle(camera.up, around).applyAxisAngle(side, up);
+    camera.position.copy(controls.target).add(offset);
+    controls.update();
+  }
+
+  zoom(by: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(by).add(this.controls.target);
+    this.controls.update();
+  }
+}
+
+interface Axes {
+  right: THREE.Vector3;
+  up: THREE.Vector3;
+  backward: THREE.Vector3;
+}
+
+function axesOf(isUpZ: boolean): Axes {
+  const [sin, cos] = [Math.sin(kAzimuth), Math.cos(kAzimuth)];
+  const right = new THREE.Vector3(cos, 0, -sin);
+  const backward = new THREE.Vector3(sin * Math.cos(kElevation), Math.sin(kElevation), cos * Math.cos(kElevation));
+  const up = backward.clone().cross(right);
+  if (isUpZ) for (const axis of [right, up, backward]) axis.set(axis.x, -axis.z, axis.y);
+  return { right, up, backward };
+}
+
+/** A corner that lies (x, y, z) from the middle is in the picture from the distance d where |x - x0| <= slope (d - z). */
+function fitBox(box: THREE.Box3, center: THREE.Vector3, axes: Axes, aspect: number): { target: THREE.Vector3; distance: number } {
+  const slopeY = Math.tan((kFieldOfView * Math.PI) / 360) / kMargin;
+  const slopes = [slopeY * aspect, slopeY];
+  const sides = [axes.right, axes.up];
+  const low = [Infinity, Infinity];
+  const high = [-Infinity, -Infinity];
+  let nearest = -Infinity;
+  for (let corner = 0; corner < 8; ++corner) {
+    const pick = (bit: number, axis: "x" | "y" | "z"): number => (corner & bit ? box.max : box.min)[axis];
+    const point = new THREE.Vector3(pick(1, "x"), pick(2, "y"), pick(4, "z")).sub(center);
+    const z = point.dot(axes.backward);
+    nearest = Math.max(nearest, z);
+    sides.forEach((side, i) => {
+      low[i] = Math.min(low[i]!, point.dot(side) - slopes[i]! * z);
+      high[i] = Math.max(high[i]!, point.dot(side) + slopes[i]! * z);
+    });
+  }
+  const target = center.clone();
+  sides.forEach((side, i) => target.addScaledVector(side, (low[i]! + high[i]!) / 2));
+  const distances = slopes.map((slope, i) => (high[i]! - low[i]!) / 2 / slope);
+  return { target, distance: Math.max(...distances, nearest + 1e-6) };
+}
