@@ -8,7 +8,8 @@ set(tvg_module_options -msimd128 -msse2 -flto -finline-functions -fno-vectorize 
 # The linker optimizes once more, and has its own idea of vectors; one wide and one at a time is none.
 set(tvg_module_link_options -flto -msimd128 -Wl,-mllvm,-force-vector-width=1,-mllvm,-force-vector-interleave=1)
 
-# Loops of mode basis, which -Oz makes half as fast.
+# Loops of mode basis, which -Oz makes half as fast. With all that decodes frames, the module would be a quarter faster
+# and 10,000 bytes larger, gzipped.
 set_source_files_properties(basis/basis_sums.cpp basis/pair_sums.cpp PROPERTIES COMPILE_OPTIONS -O2)
 
 add_executable(tvg_wasm ${tvg_c_sources})
