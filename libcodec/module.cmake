@@ -1,10 +1,12 @@
 # tvg.wasm: a module for pages and for Node that needs no script of Emscripten's: it imports next to nothing, opens no
 # files and starts no threads; memory grows as streams need it. web/ has what runs it.
 #
-# Its vectors are those of WebAssembly (-msimd128), which the models and lanes use through the names of SSE2.
+# Its vectors are those of WebAssembly (-msimd128), which the models and lanes use through the names of SSE2; browsers
+# that have them have the other extensions too.
 # Emscripten has nothing inlined with -Oz and -Os, -finline-functions takes that back: every sum of lanes would be a call.
 # Nothing else is made into vectors: what clang 14 makes of the pyramid's loops for -Os decodes wrongly.
-set(tvg_module_options -msimd128 -msse2 -flto -finline-functions -fno-vectorize -fno-slp-vectorize)
+set(tvg_module_options -msimd128 -msse2 -msign-ext -mnontrapping-fptoint -mbulk-memory -flto
+  -finline-functions -fno-vectorize -fno-slp-vectorize)
 # The linker optimizes once more, and has its own idea of vectors; one wide and one at a time is none.
 set(tvg_module_link_options -flto -msimd128 -Wl,-mllvm,-force-vector-width=1,-mllvm,-force-vector-interleave=1)
 
