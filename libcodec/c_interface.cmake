@@ -55,14 +55,6 @@ else()
   target_link_libraries(tvg_c PUBLIC ${tvg_c_stands_on})
 endif()
 
-# tvg.wasm: a module for pages and for Node that needs no script of Emscripten's: it imports next to nothing, opens no
-# files and starts no threads; memory grows as streams need it. web/ has what runs it.
 if(EMSCRIPTEN)
-  add_executable(tvg_wasm ${tvg_c_sources})
-  target_link_libraries(tvg_wasm PRIVATE ${tvg_c_stands_on})
-  target_include_directories(tvg_wasm PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
-  target_link_options(tvg_wasm PRIVATE --no-entry -sSTANDALONE_WASM=1 -sALLOW_MEMORY_GROWTH=1 -sFILESYSTEM=0
-    -sMALLOC=emmalloc -sEXPORTED_FUNCTIONS=_malloc,_free)
-  set_target_properties(tvg_wasm PROPERTIES OUTPUT_NAME tvg SUFFIX .wasm)
-  tvg_compile_options(tvg_wasm)
+  include(module.cmake)
 endif()
