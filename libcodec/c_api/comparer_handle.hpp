@@ -1,0 +1,12 @@
+#pragma once
+#include <utility>
+
+#include <tvg/metrics.hpp>
+
+/// What a handle stands for.
+struct tvg_comparer {
+  explicit tvg_comparer(tvg::Mesh given) : mesh(std::move(given)), comparison(mesh) {}
+
+  tvg::Mesh mesh;
+  tvg::SequenceComparison comparison;
+};
