@@ -7,10 +7,11 @@
 
 `encode`, `open`, `decode`, `compare` and `measure` are where to begin; all lengths are in the mesh's own units.
 """
+from ._encoder import Report, join
 from ._library import version
 from ._options import Importance, criteria
 from .clip import Clip, Frames, decode, open
-from .encoding import Report, encode, join
+from .encoding import encode
 from .errors import Code, Damage, DamageWarning, Error, InputError
 from .metrics import Comparison, Measure, compare, measure
 from .model import EXACT, Attribute, Attributes, Frame, Gop, Mesh, Part

@@ -6,7 +6,7 @@ import ctypes.util
 import os
 import pathlib
 import sys
-from ctypes import POINTER, c_char_p, c_double, c_float, c_int, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import POINTER, c_char_p, c_int, c_size_t, c_uint32, c_uint64, c_void_p
 from typing import Any, Iterator, Optional, Sequence
 
 from . import _structures as s
@@ -188,6 +188,3 @@ def version() -> str:
     """
     number = int(library().tvg_version())
     return f"{number >> 16}.{number >> 8 & 255}.{number & 255}"
-
-
-__all__ = ["SINK", "c_double", "c_float", "encoder_library", "library", "version"]

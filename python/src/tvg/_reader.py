@@ -43,6 +43,7 @@ class Reader:
         if settings.components is not None:
             self._lib.tvg_decoder_use_components(self._decoder, settings.components)
         self._offset = 0
+        self._at_head = True  # no frame has been asked for
         self._frame_info = s.sized(s.FrameInfo)
         self._frame_info_ref = ctypes.byref(self._frame_info)
         self.metadata: Dict[str, str] = {}
@@ -71,8 +72,14 @@ class Reader:
             if event in (MESH, END):
                 return
 
+    def begin_at(self, frame: int) -> None:
+        """Makes the next frame that is decoded this one, or the first good one after it."""
+        if frame > 0 or not self._at_head:
+            self._seek(frame)
+
     def advance(self) -> bool:
         """Decodes the next frame; False at the end."""
+        self._at_head = False
         while True:
             event = self._step()
             if event == FRAME:
@@ -89,15 +96,15 @@ class Reader:
         )
         self.last_damage = None
         if not ahead:
-            self._seek(frame)
+            self.begin_at(frame)
         while self.number is None or self.number < frame:
             if not self.advance():
                 break
         if self.number != frame:
             damage = self.last_damage
-            why = f": {damage.text}" if damage else ""
-            code = Code.MALFORMED if damage is None else damage.code
-            raise Error(code, f"frame {frame} is lost{why}", damage and damage.byte_offset, frame)
+            if damage is None:
+                raise Error(Code.MALFORMED, f"frame {frame} is lost", None, frame)
+            raise Error(damage.code, f"frame {frame} is lost: {damage.text}", damage.byte_offset, frame)
 
     def copy_positions(self, target: Floats) -> None:
         """The frame's positions into a C-contiguous float32 array [vertex, 3]."""
@@ -176,6 +183,7 @@ class Reader:
         offset = ctypes.c_uint64()
         self._check(self._lib.tvg_decoder_seek(self._decoder, frame, ctypes.byref(offset)))
         self._offset = offset.value
+        self._at_head = False
         self.gop = self.number = None
 
     def _load_index(self) -> None:

@@ -96,7 +96,10 @@ class Clip(Sequence[Frame]):
         self._source, self._settings, self._name = source, settings, name
         self._frame_count: Optional[int] = None
         self._closed = False
+        # The reader that has read the head, what it is lent for, and that of single frames.
         self._reader = Reader(source, settings)
+        self._idle: Optional[Reader] = self._reader
+        self._single: Optional[Reader] = None
         try:
             self._reader.read_head()
         except BaseException:
@@ -109,7 +112,9 @@ class Clip(Sequence[Frame]):
         """Closes what was opened by a path, and gives memory back. Frames stay the caller's."""
         if not self._closed:
             self._closed = True
-            self._reader.close()
+            for reader in (self._reader, self._idle, self._single):
+                if reader is not None:
+                    reader.close()
             self._source.close()
 
     def __enter__(self) -> "Clip":
@@ -170,7 +175,7 @@ class Clip(Sequence[Frame]):
         if self._frame_count is None:
             self._check_seekable("how many frames there are is known at the end only")
             quiet = Settings(self._settings.limits, on_damage=lambda damage: None)
-            reader = self._new_reader(quiet)
+            reader = Reader(self._source, quiet)
             try:
                 count = 0
                 while reader.advance():
@@ -230,12 +235,22 @@ class Clip(Sequence[Frame]):
         count = "" if self._frame_count is None else f"{self._frame_count} frames of "
         return f"<tvg.Clip {self._name}: {count}{self.mesh.vertex_count} vertices>"
 
-    def _new_reader(self, settings: Settings) -> Reader:
+    def _borrow(self) -> Reader:
+        """A reader that has read the head, for one run over frames; reading heads twice would take time."""
         if self._closed:
             raise ValueError("the clip is closed")
-        reader = Reader(self._source, settings)
-        reader.mesh = self.mesh
+        reader, self._idle = self._idle, None
+        if reader is None:
+            reader = Reader(self._source, self._settings)
+            reader.mesh = self.mesh
+            reader.read_head()
         return reader
+
+    def _give_back(self, reader: Reader) -> None:
+        if self._idle is None and not self._closed:
+            self._idle = reader
+        else:
+            reader.close()
 
     def _check_seekable(self, why: str) -> None:
         if self._closed:
@@ -247,16 +262,17 @@ class Clip(Sequence[Frame]):
         """The frame of that number, decoded by the reader that all such calls share."""
         if self._closed:
             raise ValueError("the clip is closed")
-        self._reader.go_to(number)
-        return self._reader.frame()
+        if self._single is None:
+            self._single = self._borrow()
+        self._single.go_to(number)
+        return self._single.frame()
 
     def _run(self, numbers: Optional[range], copy: bool) -> Iterator[Frame]:
         """Frames in order, those of `numbers` or all; each run over a seekable source has its own reader."""
-        reader = self._new_reader(self._settings) if self.seekable else self._reader
+        reader = self._borrow()
         try:
-            if numbers is not None and numbers.start > 0:
-                reader.read_head()
-                reader._seek(numbers.start)
+            if self.seekable:
+                reader.begin_at(0 if numbers is None else numbers.start)
             buffer: Optional[Floats] = None
             while reader.advance():
                 number = reader.number
@@ -272,17 +288,17 @@ class Clip(Sequence[Frame]):
                 if self._closed:
                     raise ValueError("the clip is closed")
         finally:
-            if reader is not self._reader:
-                reader.close()
+            self._give_back(reader)
 
     def _fill(self, numbers: range, out: Floats) -> None:
         """Writes the positions of frames into the rows of `out`."""
         backwards = numbers.step < 0
         rows = out[::-1] if backwards else out
         numbers = numbers[::-1] if backwards else numbers
-        reader = self._new_reader(self._settings)
+        reader = self._borrow()
         try:
-            reader.read_head()
+            if len(numbers):
+                reader.begin_at(numbers.start)
             for row, number in zip(rows, numbers):
                 reader.go_to(number)
                 if reader.vertex_count() != out.shape[1]:
@@ -293,7 +309,7 @@ class Clip(Sequence[Frame]):
                 if out.shape[1]:
                     reader.copy_positions(row)
         finally:
-            reader.close()
+            self._give_back(reader)
 
 
 def open(

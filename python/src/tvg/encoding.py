@@ -1,10 +1,8 @@
 """Making streams."""
 from __future__ import annotations
 
-import ctypes
 import os
 import tempfile
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, BinaryIO, Callable, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 from typing import overload
@@ -13,17 +11,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _options as o
-from . import _structures as s
 from ._arrays import bounding_box
-from ._library import SINK, encoder_library
-from ._mesh_input import AttributeLike, GivenFrames, Item, PlainFrames
+from ._encoder import Encoder, Report
+from ._mesh_input import AttributeLike, GivenFrames, PlainFrames
+from ._request import Box, Request, checked_options
 from .clip import Clip, Frames
-from .errors import Code, Error, input_error
-from .model import DOMAINS, KINDS, Attribute, Floats, Frame, Mesh, Part, same_mesh
+from .model import Frame, Part
 
 Positions = Union[npt.ArrayLike, Iterable[npt.ArrayLike], Iterable[Frame]]
 Target = Union[str, "os.PathLike[str]", BinaryIO]
-Box = Tuple[Sequence[float], Sequence[float]]
 _LIMITS = {
     "vertices": "max_vertices",
     "faces": "max_faces",
@@ -33,235 +29,69 @@ _LIMITS = {
 }
 
 
-@dataclass(frozen=True)
-class Report:
-    """What was encoded.
-
-    Attributes:
-        frames, gops: how many.
-        bytes: of the whole stream.
-        largest_error: in mode basis, of a coordinate, in the mesh's units; 0 in others.
-    """
-
-    frames: int
-    gops: int
-    bytes: int
-    largest_error: float
-
-
-class _Sink:
-    """Hands bytes on to `write`; what that raises is kept until the library has returned."""
-
-    def __init__(self, write: Callable[[bytes], Any]) -> None:
-        self._write = write
-        self.error: Optional[BaseException] = None
-        self.callback = SINK(self._take)
-
-    def _take(self, user: Any, address: int, size: int) -> int:
-        try:
-            rest = ctypes.string_at(address, size)
-            while rest:
-                written = self._write(rest)
-                if written is None or not 0 < written < len(rest):
-                    break  # most files take all; raw ones may take less
-                rest = rest[written:]
-            return 0
-        except BaseException as error:  # noqa: B902: also what is no Exception has to wait
-            self.error = error
-            return 1
-
-
-class _Encoder:
-    """tvg_encoder: errors become exceptions, meshes are set where they change."""
-
-    def __init__(self, options: s.EncoderOptions, write: Callable[[bytes], Any]) -> None:
-        self._lib = encoder_library()
-        self._sink = _Sink(write)
-        self._handle = ctypes.c_void_p()
-        code = self._lib.tvg_encoder_create(
-            ctypes.byref(options), self._sink.callback, None, ctypes.byref(self._handle)
-        )
-        if code != 0:
-            raise input_error(code, "an encoder cannot be made")
-        self._mesh: Optional[Mesh] = None
-
-    def close(self) -> None:
-        handle, self._handle = self._handle, ctypes.c_void_p()
-        self._lib.tvg_encoder_destroy(handle)
-        del self._sink.callback  # it refers to the sink that owns it
-
-    def set_importance(self, importance: o.Importance) -> None:
-        given, _keep = o.importance_struct(importance)
-        self._check(self._lib.tvg_encoder_set_importance(self._handle, ctypes.byref(given)))
-
-    def set_texts(self, metadata: Mapping[str, str], data: Mapping[str, bytes]) -> None:
-        for key, value in metadata.items():
-            self._check(self._lib.tvg_encoder_set_metadata(self._handle, key.encode(), value.encode()))
-        for name, content in data.items():
-            blob = bytes(content)
-            self._check(self._lib.tvg_encoder_add_data(self._handle, name.encode(), blob, len(blob)))
-
-    def add(self, item: Item) -> None:
-        positions, mesh, values = item
-        if mesh is not self._mesh:
-            if self._mesh is None or not same_mesh(mesh, self._mesh):
-                self._set_mesh(mesh, values)
-            self._mesh = mesh
-        for number, key in enumerate(mesh.attributes):
-            if key in values:
-                rows = np.ascontiguousarray(values[key], dtype=np.float32)
-                self._check(
-                    self._lib.tvg_encoder_set_values(
-                        self._handle, number, rows.ctypes.data, len(rows), 4 * rows.shape[1]
-                    )
-                )
-        self._check(
-            self._lib.tvg_encoder_add_frame(self._handle, positions.ctypes.data, positions.nbytes, 12)
-        )
-
-    def finish(self) -> Report:
-        report = s.sized(s.EncodeReport)
-        self._check(self._lib.tvg_encoder_finish(self._handle, ctypes.byref(report)))
-        return Report(report.frames, report.gops, report.bytes, report.largest_error)
-
-    def _set_mesh(self, mesh: Mesh, values: Mapping[str, Floats]) -> None:
-        for key, attribute in mesh.attributes.items():
-            self._add_attribute(attribute, values.get(key))
-        for part in mesh.parts:
-            texts = (text.encode() for text in (part.object, part.group, part.material))
-            given = s.sized(s.PartInfo, **dict(zip(("object", "group", "material"), texts)))
-            self._check(self._lib.tvg_encoder_add_part(self._handle, ctypes.byref(given)))
-        if mesh.face_parts is not None and len(mesh.face_parts) and mesh.parts:
-            parts = np.ascontiguousarray(mesh.face_parts, dtype=np.uint32)
-            self._check(self._lib.tvg_encoder_set_face_parts(self._handle, parts.ctypes.data, len(parts)))
-        if mesh.polygons is not None and len(mesh.polygons):
-            polygons = np.ascontiguousarray(mesh.polygons, dtype=np.uint32)
-            self._check(self._lib.tvg_encoder_set_polygons(self._handle, polygons.ctypes.data, len(polygons)))
-        faces = mesh.faces
-        self._check(
-            self._lib.tvg_encoder_set_mesh(self._handle, mesh.vertex_count, faces.ctypes.data, len(faces))
-        )
-
-    def _add_attribute(self, attribute: Attribute, values: Optional[Floats]) -> None:
-        static = None if attribute.animated else attribute.values
-        shown = values if attribute.animated else static
-        if shown is None:
-            raise ValueError(f"attribute {attribute.name!r} is animated, and the frame has no values of it")
-        corners = None
-        if attribute.corners is not None:
-            corners = np.ascontiguousarray(attribute.corners, dtype=np.uint32)
-        given = s.sized(
-            s.AttributeGiven,
-            name=attribute.name.encode(),
-            kind=KINDS.index(attribute.kind),
-            domain=DOMAINS.index(attribute.domain),
-            components=shown.shape[1],
-            bits=attribute.bits or 0,
-            values=None if static is None else static.ctypes.data,
-            value_count=len(shown),
-            corners=None if corners is None else corners.ctypes.data,
-            corner_count=0 if corners is None else corners.size,
-            animated=int(attribute.animated),
-        )
-        self._check(self._lib.tvg_encoder_add_attribute(self._handle, ctypes.byref(given)))
-
-    def _check(self, code: int) -> None:
-        if self._sink.error is not None:
-            error, self._sink.error = self._sink.error, None
-            raise error
-        if code != 0:
-            raise input_error(code, self._lib.tvg_encoder_error_text(self._handle).decode("utf-8", "replace"))
-
-
-@dataclass
-class _Options:
-    """What encode() was asked for, once it has been checked."""
-
-    c: s.EncoderOptions
-    max_error: Union[None, float, str]
-    importance: Optional[o.Importance]
-    period: Union[None, int, str]
-    box: Optional[Box]
-
-    def needs_box(self) -> bool:
-        lossless = self.c.mode == 2
-        return self.box is None and not lossless and (self.max_error is not None or self.c.step == 0)
-
-    def complete(self, frames: Union[PlainFrames, GivenFrames], box: Optional[Box]) -> None:
-        """Sets what only frames can tell, as `tvg encode` does with a source that it can read twice."""
-        c = self.c
-        lossless = c.mode == 2
-        box = None if lossless else self.box if self.box is not None else box
-        if box is not None:
-            low, high = [[float(value) for value in corner] for corner in box]
-            if len(low) != 3 or len(high) != 3 or not all(a <= b for a, b in zip(low, high)):
-                raise ValueError(
-                    f"box={box!r}: write its lowest and its highest corner, ((x, y, z), (x, y, z))"
-                )
-            if self.box is not None or self.max_error is not None or c.step == 0:
-                c.has_box, c.box_low[:], c.box_high[:] = 1, low, high
-        if self.max_error is not None:
-            diagonal = None if box is None else float(np.linalg.norm(np.subtract(high, low)))
-            bound = o.error_bound(self.max_error, diagonal)
-            if box is not None:
-                bound = o.resolve_error(bound, low, high)
-                c.step = 2 * bound
-            c.max_error = bound
-        if c.mode == 1:
-            most = o.PERIODS.get(c.effort, 128) if self.period is None else self._period_frames()
-            count = frames.frame_count
-            c.period_frames = most if count is None else max(1, min(count, most))
-        elif self.period is not None:
-            raise ValueError("period needs mode='basis', whose planes the frames of a period share")
-        # What lies on the surface of a single frame is predicted from its shape.
-        if frames.frame_count == 1 and frames.mesh.attributes and c.mode == 0 and c.predictor == 2:
-            c.predictor = 3
-
-    def _period_frames(self) -> int:
-        return 65536 if self.period == "all" else o.whole("period", self.period, 1, 65536)
-
-
-def _checked_options(
-    bits: Optional[o.Pair],
-    step: Optional[o.Steps],
-    max_error: Union[None, float, str],
-    lossless: bool,
-    mode: str,
-) -> "Tuple[s.EncoderOptions, Union[None, float, str]]":
-    """Options with what there is to say of precision."""
-    given = [
-        name
-        for name, value in (("bits", bits), ("step", step), ("max_error", max_error))
-        if value is not None
-    ]
-    if len(given) > 1 or (lossless and given):
-        names = " and ".join(given + (["lossless"] if lossless else []))
-        raise ValueError(f"{names} exclude each other: each says how exact positions are")
-    if mode not in ("elp", "basis"):
-        raise ValueError(f"mode={mode!r}: write 'elp' or 'basis' (or lossless=True)")
-    c = s.sized(s.EncoderOptions)
-    encoder_library().tvg_encoder_options_init(ctypes.byref(c))
-    c.mode = 2 if lossless else 1 if mode == "basis" else 0
-    if bits is not None:
-        c.fine_bits, c.coarse_bits = o.bits_pair(bits)
-    if step is not None:
-        c.step, shift = o.step_pair(step)
-        c.fine_bits, c.coarse_bits = o.MOST_BITS, o.MOST_BITS - shift
-    return c, max_error
-
-
-@overload
-def encode(positions: Positions, faces: Any = None, out: None = None, **options: Any) -> bytes:
+@overload  # Without `out`, the first of the two is meant.
+def encode(  # type: ignore[misc]
+    positions: Positions,
+    faces: Any = ...,
+    out: None = ...,
+    *,
+    bits: Optional[o.Pair] = ...,
+    step: Optional[o.Steps] = ...,
+    max_error: Union[None, float, str] = ...,
+    lossless: bool = ...,
+    mode: str = ...,
+    predictor: str = ...,
+    fps: Union[None, int, float, str, Fraction] = ...,
+    gop: Optional[int] = ...,
+    period: Union[None, int, str] = ...,
+    effort: int = ...,
+    importance: o.ImportanceLike = ...,
+    attributes: Optional[Mapping[str, AttributeLike]] = ...,
+    parts: Optional[Sequence[Part]] = ...,
+    face_parts: Optional[npt.ArrayLike] = ...,
+    polygons: Optional[npt.ArrayLike] = ...,
+    metadata: Optional[Mapping[str, Any]] = ...,
+    data: Optional[Mapping[str, bytes]] = ...,
+    threads: Optional[int] = ...,
+    box: Optional[Box] = ...,
+    reorder: bool = ...,
+    limits: Optional[Mapping[str, int]] = ...,
+    first_frame: int = ...,
+    progress: Optional[Callable[[int, Optional[int]], None]] = ...,
+) -> bytes:
     ...
 
 
 @overload
-def encode(positions: Positions, faces: Any, out: Target, **options: Any) -> Report:
-    ...
-
-
-@overload
-def encode(positions: Positions, *, out: Target, **options: Any) -> Report:
+def encode(
+    positions: Positions,
+    faces: Any = ...,
+    out: Target = ...,
+    *,
+    bits: Optional[o.Pair] = ...,
+    step: Optional[o.Steps] = ...,
+    max_error: Union[None, float, str] = ...,
+    lossless: bool = ...,
+    mode: str = ...,
+    predictor: str = ...,
+    fps: Union[None, int, float, str, Fraction] = ...,
+    gop: Optional[int] = ...,
+    period: Union[None, int, str] = ...,
+    effort: int = ...,
+    importance: o.ImportanceLike = ...,
+    attributes: Optional[Mapping[str, AttributeLike]] = ...,
+    parts: Optional[Sequence[Part]] = ...,
+    face_parts: Optional[npt.ArrayLike] = ...,
+    polygons: Optional[npt.ArrayLike] = ...,
+    metadata: Optional[Mapping[str, Any]] = ...,
+    data: Optional[Mapping[str, bytes]] = ...,
+    threads: Optional[int] = ...,
+    box: Optional[Box] = ...,
+    reorder: bool = ...,
+    limits: Optional[Mapping[str, int]] = ...,
+    first_frame: int = ...,
+    progress: Optional[Callable[[int, Optional[int]], None]] = ...,
+) -> Report:
     ...
 
 
@@ -347,7 +177,7 @@ def encode(
     >>> stream[:4], bool(abs(tvg.decode(stream)[0] - ramp).max() <= 0.5 / 2**12)
     (b'\\x89TVG', True)
     """
-    c, max_error = _checked_options(bits, step, max_error, lossless, mode)
+    c, max_error = checked_options(bits, step, max_error, lossless, mode)
     if predictor not in o.PREDICTOR_NUMBERS:
         raise ValueError(f"predictor={predictor!r}: write one of {', '.join(o.PREDICTOR_NUMBERS)}")
     c.predictor = o.PREDICTOR_NUMBERS[predictor]
@@ -373,13 +203,13 @@ def encode(
     frames, box_of_frames = _frames_of(
         positions,
         faces,
-        _Options(c, max_error, measure, period, box),
+        Request(c, max_error, measure, period, box),
         attributes,
         parts,
         face_parts,
         polygons,
     )
-    options = _Options(c, max_error, measure, period, box)
+    options = Request(c, max_error, measure, period, box)
     options.complete(frames, box_of_frames)
     return _write(frames, options, texts, blobs, out, progress)
 
@@ -387,7 +217,7 @@ def encode(
 def _frames_of(
     positions: Any,
     faces: Any,
-    options: _Options,
+    options: Request,
     attributes: Optional[Mapping[str, AttributeLike]],
     parts: Optional[Sequence[Part]],
     face_parts: Optional[npt.ArrayLike],
@@ -463,7 +293,7 @@ def _chained(first: Any, rest: Iterable[Any]) -> Iterable[Any]:
 
 def _write(
     frames: Union[PlainFrames, GivenFrames],
-    options: _Options,
+    options: Request,
     texts: Mapping[str, str],
     blobs: Mapping[str, bytes],
     out: Optional[Target],
@@ -498,13 +328,13 @@ def _write(
 
 def _run(
     frames: Union[PlainFrames, GivenFrames],
-    options: _Options,
+    options: Request,
     texts: Mapping[str, str],
     blobs: Mapping[str, bytes],
     write: Callable[[bytes], Any],
     progress: Optional[Callable[[int, Optional[int]], None]],
 ) -> Report:
-    encoder = _Encoder(options.c, write)
+    encoder = Encoder(options.c, write)
     try:
         if options.importance is not None:
             encoder.set_importance(options.importance)
@@ -516,28 +346,3 @@ def _run(
         return encoder.finish()
     finally:
         encoder.close()
-
-
-def join(streams: Sequence[bytes]) -> bytes:
-    """One stream of several, at the borders of their groups of frames and without decoding.
-
-    >>> one = tvg.encode(np.zeros((2, 3, 3)), [[0, 1, 2]])
-    >>> len(tvg.open(tvg.join([one, one])))
-    4
-    """
-    lib = encoder_library()
-    pieces: List[bytes] = []
-    sink = _Sink(pieces.append)
-    held = [np.frombuffer(stream, dtype=np.uint8) for stream in streams]
-    array = (s.StreamBytes * len(held))(*[s.StreamBytes(piece.ctypes.data, piece.nbytes) for piece in held])
-    text = ctypes.create_string_buffer(1024)
-    code = lib.tvg_join(array, len(held), sink.callback, None, None, text, len(text))
-    del sink.callback
-    if sink.error is not None:
-        raise sink.error
-    if code != 0:
-        raise input_error(code, text.value.decode("utf-8", "replace") or "there is no stream to join")
-    return b"".join(pieces)
-
-
-__all__ = ["Code", "Error", "Report", "encode", "join"]
