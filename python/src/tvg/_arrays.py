@@ -41,7 +41,7 @@ def as_faces(faces: Any) -> Tuple[Indices, Optional[Indices]]:
     if corners == 3:
         return np.ascontiguousarray(array, dtype=np.uint32), None
     fans = [array[:, [0, i, i + 1]] for i in range(1, corners - 1)]
-    triangles = np.stack(fans, axis=1).reshape(-1, 3).astype(np.uint32)
+    triangles = np.ascontiguousarray(np.stack(fans, axis=1).reshape(-1, 3), dtype=np.uint32)
     count = len(array)
     polygons = np.stack([np.arange(count) * (corners - 2), np.full(count, corners)], axis=1)
     return triangles, polygons.astype(np.uint32)

@@ -119,7 +119,7 @@ class Encoder:
         if mesh.polygons is not None and len(mesh.polygons):
             polygons = np.ascontiguousarray(mesh.polygons, dtype=np.uint32)
             self._check(self._lib.tvg_encoder_set_polygons(self._handle, polygons.ctypes.data, len(polygons)))
-        faces = mesh.faces
+        faces = np.ascontiguousarray(mesh.faces, dtype=np.uint32)
         self._check(
             self._lib.tvg_encoder_set_mesh(self._handle, mesh.vertex_count, faces.ctypes.data, len(faces))
         )

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -147,8 +147,8 @@ class GivenFrames:
                 raise ValueError(f"frame {number} is a {type(frame).__name__}, and the first is a tvg.Frame")
             mesh = frame.mesh
             positions = as_frame(frame.positions, number, mesh.vertex_count)
-            if mesh.faces.dtype != np.uint32 or not mesh.faces.flags.c_contiguous:
-                raise ValueError(f"frame {number}: the faces of a tvg.Mesh are C-contiguous uint32 [face, 3]")
+            if mesh.faces.ndim != 2 or mesh.faces.shape[1] != 3 or mesh.faces.dtype.kind not in "iu":
+                raise ValueError(f"frame {number}: the faces of a tvg.Mesh are uint32 [face, 3]")
             check_faces(mesh.faces, mesh.vertex_count)
             values = {}
             for key, attribute in mesh.attributes.items():
@@ -176,7 +176,3 @@ def _parts_of_faces(face_parts: npt.ArrayLike, triangles: int, made: Optional[In
         )
     return array
 
-
-def animated_components(mesh: Mesh, values: Mapping[str, Floats]) -> List[Tuple[str, int]]:
-    """The key of each animated attribute, and how many numbers its values have."""
-    return [(key, values[key].shape[1]) for key, attribute in mesh.attributes.items() if attribute.animated]
