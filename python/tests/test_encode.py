@@ -290,7 +290,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(told, [(1, 3), (2, 3), (3, 3)])
 
 
-@unittest.skipUnless(os.environ.get("TVG_TOOL"), "TVG_TOOL names no tvg to compare with")
+@unittest.skipUnless(os.path.exists(os.environ.get("TVG_TOOL", "")), "TVG_TOOL names no tvg to compare with")
 class BesideTheTool(unittest.TestCase):
     def test_the_same_options_make_the_same_bytes(self):
         positions = wave(70).astype(np.float32)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._reader import Reader, Settings
 from ._source import ByteSource, Source, open_source
-from .errors import Damage
+from .errors import Damage, Error
 from .model import Attributes, Floats, Frame, Indices, Mesh, Part
 
 
@@ -95,11 +95,12 @@ class Clip(Sequence[Frame]):
     def __init__(self, source: ByteSource, settings: Settings, name: str) -> None:
         self._source, self._settings, self._name = source, settings, name
         self._frame_count: Optional[int] = None
-        self._closed = False
+        self._closed = True
         # The reader that has read the head, what it is lent for, and that of single frames.
         self._reader = Reader(source, settings)
         self._idle: Optional[Reader] = self._reader
         self._single: Optional[Reader] = None
+        self._closed = False
         try:
             self._reader.read_head()
         except BaseException:
@@ -180,6 +181,8 @@ class Clip(Sequence[Frame]):
                 count = 0
                 while reader.advance():
                     count = (reader.number or 0) + 1
+            except Error:
+                pass  # a stream that is cut has the frames before; who reads to its end is told
             finally:
                 reader.close()
             self._frame_count = count

@@ -175,7 +175,7 @@ def encode(
     >>> ramp[:, 1, 0] = ramp[:, 2, 1] = 1
     >>> stream = tvg.encode(ramp, [[0, 1, 2]], bits=12, fps=25)
     >>> stream[:4], bool(abs(tvg.decode(stream)[0] - ramp).max() <= 0.5 / 2**12)
-    (b'\\x89TVG', True)
+    (b'\\x8bTVG', True)
     """
     c, max_error = checked_options(bits, step, max_error, lossless, mode)
     if predictor not in o.PREDICTOR_NUMBERS:

@@ -76,7 +76,7 @@ def compare(original: Any, decoded: Any, faces: Any, hausdorff: Union[bool, int]
 
     >>> wave = np.random.default_rng(1).random((5, 3, 3))
     >>> figures = tvg.compare(wave, tvg.decode(tvg.encode(wave, [[0, 1, 2]], bits=11))[0], [[0, 1, 2]])
-    >>> figures.frames, figures.max_coordinate_error <= figures.extent / 2**12
+    >>> figures.frames, figures.max_coordinate_error < figures.extent / 2**11
     (5, True)
     """
     lib = encoder_library()
