@@ -2,6 +2,7 @@
 #include <utility>
 
 #include <tvg/metrics.hpp>
+#include <tvg/tvg.h>
 
 /// What a handle stands for.
 struct tvg_comparer {
