@@ -11,6 +11,11 @@ try:
 except ImportError:  # before setuptools 70.1
     from wheel.bdist_wheel import bdist_wheel
 
+HERE = os.path.dirname(os.path.abspath(__file__))
+LICENSE = os.path.join(HERE, os.pardir, "LICENSE")
+if os.path.exists(LICENSE):  # of the project; an sdist has it already
+    shutil.copyfile(LICENSE, os.path.join(HERE, "LICENSE"))
+
 LIBRARY = os.environ.get("TVG_LIBRARY")
 # The name that the package looks for beside itself.
 BUNDLED = {"win32": "tvg.dll", "darwin": "libtvg.dylib"}.get(sys.platform, "libtvg.so.0.2")

@@ -79,6 +79,7 @@ class Library(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             source, wheels, site = (pathlib.Path(folder, name) for name in ("source", "wheels", "site"))
             shutil.copytree(PACKAGE, source, ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
+            shutil.copy(PROJECT / "LICENSE", folder)
             pip = [sys.executable, "-m", "pip", "-q", "--disable-pip-version-check"]
             offline = ["--no-index", "--no-deps"]
             command = pip + ["wheel", str(source), "--no-build-isolation", "-w", str(wheels)] + offline
