@@ -17,6 +17,8 @@ if os.path.exists(LICENSE):  # of the project; an sdist has it already
     shutil.copyfile(LICENSE, os.path.join(HERE, "LICENSE"))
 
 LIBRARY = os.environ.get("TVG_LIBRARY")
+if LIBRARY and not os.path.isfile(LIBRARY):
+    sys.exit(f"TVG_LIBRARY={LIBRARY} is no file; pip builds in a folder of its own, so write the whole path")
 # The name that the package looks for beside itself.
 BUNDLED = {"win32": "tvg.dll", "darwin": "libtvg.dylib"}.get(sys.platform, "libtvg.so.0.2")
 
