@@ -2,7 +2,7 @@
 # is shared; a WebAssembly module beside it with Emscripten.
 set(tvg_c_sources c_api/decoder.cpp c_api/decoder_basis.cpp c_api/decoder_properties.cpp)
 if(TVG_BUILD_ENCODER)
-  list(APPEND tvg_c_sources c_api/encoder.cpp c_api/encoder_properties.cpp c_api/unpack.cpp)
+  list(APPEND tvg_c_sources c_api/encoder.cpp c_api/encoder_properties.cpp c_api/measure.cpp c_api/unpack.cpp)
 else()
   list(APPEND tvg_c_sources c_api/unpack_stored.cpp)
 endif()

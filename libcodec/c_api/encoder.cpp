@@ -1,3 +1,4 @@
+#include "c_api/comparer_handle.hpp"
 #include "c_api/encoder_handle.hpp"
 #include "c_api/support.hpp"
 
@@ -24,10 +25,8 @@ using tvg::c_api::fail;
 using tvg::c_api::fits;
 using tvg::c_api::give;
 using tvg::c_api::guarded;
-
-struct tvg_comparer {
-  tvg::SequenceComparison comparison;
-};
+using tvg::c_api::mesh_of;
+using tvg::c_api::write_text;
 
 namespace {
 
@@ -36,14 +35,6 @@ tvg::ByteSink sink_of(tvg_sink sink, void* user) {
     if (bytes.empty() || sink(user, bytes.data(), bytes.size()) == 0) return tvg::Status();
     return tvg::Status(tvg::Error{tvg::ErrorCode::kIo, "the sink gave up"});
   };
-}
-
-tvg::Mesh mesh_of(std::uint32_t vertex_count, const std::uint32_t* faces, std::uint32_t face_count) {
-  tvg::Mesh mesh;
-  mesh.vertex_count = vertex_count;
-  mesh.faces.resize(face_count);
-  if (face_count > 0) std::memcpy(mesh.faces.data(), faces, face_count * sizeof(tvg::Face));
-  return mesh;
 }
 
 /// Numbers too large for an int are no number of bits either.
@@ -92,13 +83,6 @@ tvg::EncodeOptions options_of(const tvg_encoder_options& given) {
     options.box->extend(given.box_high[0], given.box_high[1], given.box_high[2]);
   }
   return options;
-}
-
-void write_text(const std::string& text, char* target, std::size_t size) {
-  if (target == nullptr || size == 0) return;
-  const std::size_t count = std::min(text.size(), size - 1);
-  std::memcpy(target, text.data(), count);
-  target[count] = '\0';
 }
 
 tvg::ByteSource bytes_of(const tvg_stream_bytes& stream) {
@@ -245,7 +229,7 @@ tvg_code tvg_comparer_create(uint32_t vertex_count, const uint32_t* faces, uint3
     if (faces[i] >= vertex_count) return TVG_ERROR_INVALID_INPUT;
   }
   try {
-    *comparer = new tvg_comparer{tvg::SequenceComparison(mesh_of(vertex_count, faces, face_count))};
+    *comparer = new tvg_comparer(mesh_of(vertex_count, faces, face_count));
     return TVG_OK;
   } catch (const std::exception&) {
     return TVG_ERROR_OUT_OF_MEMORY;

@@ -1,7 +1,10 @@
 #pragma once
 #include "c_api/support.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <optional>
 #include <string>
@@ -44,6 +47,22 @@ tvg_code guarded(tvg_encoder& encoder, Work work) {
   } catch (const std::exception&) {
     return fail(encoder, TVG_ERROR_OUT_OF_MEMORY, "out of memory");
   }
+}
+
+inline Mesh mesh_of(std::uint32_t vertex_count, const std::uint32_t* faces, std::uint32_t face_count) {
+  Mesh mesh;
+  mesh.vertex_count = vertex_count;
+  mesh.faces.resize(face_count);
+  if (face_count > 0) std::memcpy(mesh.faces.data(), faces, face_count * sizeof(Face));
+  return mesh;
+}
+
+/// As much of the text as there is room for, and a zero.
+inline void write_text(const std::string& text, char* target, std::size_t size) {
+  if (target == nullptr || size == 0) return;
+  const std::size_t count = std::min(text.size(), size - 1);
+  std::memcpy(target, text.data(), count);
+  target[count] = '\0';
 }
 
 }  // namespace tvg::c_api

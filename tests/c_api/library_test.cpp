@@ -27,7 +27,7 @@ std::string output_of(const std::string& command) {
 
 TEST(SharedLibrary, ExportsTheFunctionsOfItsHeadersAndNothingElse) {
   std::string text;
-  for (const char* name : {"tvg.h", "tvg_encoder.h", "tvg_basis.h", "tvg_properties.h"}) {
+  for (const char* name : {"tvg.h", "tvg_encoder.h", "tvg_basis.h", "tvg_measure.h", "tvg_properties.h"}) {
     std::ifstream header(std::string(TVG_C_HEADERS) + name);
     ASSERT_TRUE(header) << name;
     text.append(std::istreambuf_iterator<char>(header), {});

@@ -263,6 +263,7 @@ TVG_API tvg_code tvg_decoder_error_code(const tvg_decoder* decoder);
 
 #ifndef TVG_DECODE_ONLY
 #include <tvg/tvg_encoder.h>
+#include <tvg/tvg_measure.h>
 #endif
 #include <tvg/tvg_basis.h>
 #include <tvg/tvg_properties.h>

@@ -1,4 +1,5 @@
-/* Encoding .tvg streams, comparing and joining them; tvg.h includes this header where the library has it. */
+/* Encoding .tvg streams, comparing and joining them; tvg.h includes this header where the library has it, and
+ * tvg_measure.h with it: what makes vertices important, and all figures of a comparison. */
 #ifndef TVG_TVG_ENCODER_H
 #define TVG_TVG_ENCODER_H
 
