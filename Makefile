@@ -67,8 +67,8 @@ check-format:
 
 lint:
 	@scripts/install_packages.sh build check
-	@$(CONFIGURE) release >/dev/null
-	@LINT_CHECKS="$(LINT_CHECKS)" scripts/run_tidy.sh build/release $(LINT)
+	@$(CONFIGURE) release -B build/lint -DTVG_UNITY=OFF >/dev/null
+	@LINT_CHECKS="$(LINT_CHECKS)" scripts/run_tidy.sh build/lint $(LINT)
 
 sanitize:
 	@scripts/install_packages.sh build test
@@ -86,7 +86,7 @@ fuzz:
 # The decoder with other compilers and on other machines.
 portability:
 	@scripts/install_packages.sh portability
-	@WERROR=$(WERROR) scripts/check_portability.sh $(PORTABILITY)
+	@WERROR=$(WERROR) OPTIONS="$(OPTIONS)" scripts/check_portability.sh $(PORTABILITY)
 
 clean:
 	@rm -rf build
