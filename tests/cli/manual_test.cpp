@@ -65,10 +65,8 @@ TEST_F(ToolTest, TheManualShowsTheVelocityCriterionAsItIs) {
 
 TEST_F(ToolTest, TheManualNamesEveryCommandAndOptionAndNoOther) {
   const std::string page = read(std::string(TVG_PROJECT) + "/docs/commands.md");
-  std::vector<std::string> commands = {
-    "encode", "decode", "info", "verify", "compare",
-    std::vector<std::string> commands = {"encode", "decode", "info", "verify", "compare", "measure",
-                                         "simplify", "join", "ladder", "page", "help"};
+  std::vector<std::string> commands = {"encode",   "decode", "info",   "verify", "compare", "measure",
+                                       "simplify", "join",   "ladder", "page",   "help"};
 #ifdef TVG_HAS_PLAYER
   commands.insert(commands.end(), {"play", "render", "serve"});
 #endif
