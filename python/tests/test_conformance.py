@@ -158,6 +158,19 @@ class Damage(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "there is no 'pixels'"):
             tvg.open(self.stream, limits={"pixels": 100})
 
+    def test_a_stream_that_lies_about_its_length_makes_no_list_as_long(self):
+        data = bytearray(self.stream)
+        at = data.index(b"GOP ") + 16
+        told = []
+        for byte in range(at, at + 60):
+            changed = bytearray(data)
+            changed[byte] = 127
+            try:
+                told.append(len(list(tvg.open(bytes(changed), on_damage=lambda damage: None))))
+            except tvg.Error:
+                pass
+        self.assertLessEqual(max(told), 30)
+
     def test_every_truncation_is_an_error_or_damage(self):
         for size in range(0, len(self.stream), 97):
             found = []
