@@ -30,7 +30,14 @@ def facts(source, size, **options):
                 faces += len(frame.faces)
                 corners += frame.faces.astype("<u4").tobytes()
             shown = frame.mesh
-    return [str(size), str(frames), str(vertices), str(faces), f"{xxh64(positions):016x}", f"{xxh64(corners):016x}"]
+    return [
+        str(size),
+        str(frames),
+        str(vertices),
+        str(faces),
+        f"{xxh64(positions):016x}",
+        f"{xxh64(corners):016x}",
+    ]
 
 
 @unittest.skipUnless(STREAMS.is_dir() and xxh64, "the conformance streams are in the project only")

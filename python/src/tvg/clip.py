@@ -69,7 +69,9 @@ class Frames(Sequence[Frame]):
                 out = np.empty(shape, np.float32)
             except MemoryError:
                 size = 12 * len(self) * vertices
-                raise Error(Code.OUT_OF_MEMORY, f"all positions take {size} bytes: take frame after frame") from None
+                raise Error(
+                    Code.OUT_OF_MEMORY, f"all positions take {size} bytes: take frame after frame"
+                ) from None
         elif out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous:
             raise ValueError(
                 f"out is {out.dtype} {out.shape}: it has to be C-contiguous float32 {shape}, [frame, vertex, 3]"
@@ -192,7 +194,9 @@ class Clip(Sequence[Frame]):
             self._frame_count = count
         if self._source.size is not None and self._frame_count > self._source.size:
             # list(clip) would make room for them all; after a TypeError it goes by what comes.
-            raise TypeError(f"{self._name} says it has {self._frame_count} frames, more than bytes: go through them")
+            raise TypeError(
+                f"{self._name} says it has {self._frame_count} frames, more than bytes: go through them"
+            )
         return self._frame_count
 
     def __iter__(self) -> Iterator[Frame]:
