@@ -32,7 +32,13 @@ class Access(unittest.TestCase):
                 np.testing.assert_array_equal(clip.positions(), whole)
                 for index in (17, 16, 0, 29, -1, -30, 18, 18, 19, 25, np.int64(3)):
                     np.testing.assert_array_equal(clip[index].positions, whole[index])
-                for part in (slice(10, 20), slice(3, None, 5), slice(None, None, -3), slice(-4, None), slice(5, 5)):
+                for part in (
+                    slice(10, 20),
+                    slice(3, None, 5),
+                    slice(None, None, -3),
+                    slice(-4, None),
+                    slice(5, 5),
+                ):
                     self.assertEqual([frame.number for frame in clip[part]], list(range(30)[part]))
                     for frame, expected in zip(clip[part], whole[part]):
                         np.testing.assert_array_equal(frame.positions, expected)
@@ -64,7 +70,9 @@ class Access(unittest.TestCase):
             pairs = [(a.number, b.number) for a in clip[:3] for b in clip[10:12]]
             self.assertEqual(pairs, [(a, b) for a in range(3) for b in (10, 11)])
             first, other = iter(clip), iter(clip)
-            self.assertEqual([next(first).number, next(other).number, clip[9].number, next(first).number], [0, 0, 9, 1])
+            self.assertEqual(
+                [next(first).number, next(other).number, clip[9].number, next(first).number], [0, 0, 9, 1]
+            )
 
     def test_frames_own_their_memory_unless_told_otherwise(self):
         with tvg.open(STREAM) as clip:
@@ -92,7 +100,14 @@ class Sources(unittest.TestCase):
             path = os.path.join(folder, "a.tvg")
             pathlib.Path(path).write_bytes(STREAM)
             with open(path, "rb") as file:
-                for source in (path, pathlib.Path(path), bytearray(STREAM), memoryview(STREAM), file, io.BytesIO(STREAM)):
+                for source in (
+                    path,
+                    pathlib.Path(path),
+                    bytearray(STREAM),
+                    memoryview(STREAM),
+                    file,
+                    io.BytesIO(STREAM),
+                ):
                     with tvg.open(source) as clip:
                         np.testing.assert_array_equal(clip.positions(), whole)
                 self.assertFalse(file.closed)
@@ -174,7 +189,9 @@ class Threads(unittest.TestCase):
                 if not np.array_equal(tvg.open(stream).positions(), positions):
                     wrong.append(stream)
 
-        threads = [threading.Thread(target=work, args=pair) for pair in zip((STREAM, BASIS) * 2, expected * 2)]
+        threads = [
+            threading.Thread(target=work, args=pair) for pair in zip((STREAM, BASIS) * 2, expected * 2)
+        ]
         for thread in threads:
             thread.start()
         for thread in threads:
@@ -190,7 +207,9 @@ class Figures(unittest.TestCase):
         self.assertAlmostEqual(figures.max_coordinate_error, abs(away).max())
         self.assertAlmostEqual(figures.rms_vertex_distance, np.sqrt((away**2).sum(axis=2).mean()))
         centred = original - original.astype(float).mean(axis=1, keepdims=True)
-        self.assertAlmostEqual(figures.kg_percent, 100 * np.linalg.norm(away) / np.linalg.norm(centred), places=6)
+        self.assertAlmostEqual(
+            figures.kg_percent, 100 * np.linalg.norm(away) / np.linalg.norm(centred), places=6
+        )
         self.assertLessEqual(figures.hausdorff, figures.max_vertex_distance)
         self.assertIsNone(tvg.compare(original, decoded, []).hausdorff)
 

@@ -30,7 +30,14 @@ def facts(source, size, **options):
                 faces += len(frame.faces)
                 corners += frame.faces.astype("<u4").tobytes()
             shown = frame.mesh
-    return [str(size), str(frames), str(vertices), str(faces), f"{xxh64(positions):016x}", f"{xxh64(corners):016x}"]
+    return [
+        str(size),
+        str(frames),
+        str(vertices),
+        str(faces),
+        f"{xxh64(positions):016x}",
+        f"{xxh64(corners):016x}",
+    ]
 
 
 @unittest.skipUnless(STREAMS.is_dir() and xxh64, "the conformance streams are in the project only")
@@ -157,6 +164,19 @@ class Damage(unittest.TestCase):
         self.assertEqual(caught.exception.code, tvg.Code.LIMIT_EXCEEDED)
         with self.assertRaisesRegex(ValueError, "there is no 'pixels'"):
             tvg.open(self.stream, limits={"pixels": 100})
+
+    def test_a_stream_that_lies_about_its_length_makes_no_list_as_long(self):
+        data = bytearray(self.stream)
+        at = data.index(b"GOP ") + 16
+        told = []
+        for byte in range(at, at + 60):
+            changed = bytearray(data)
+            changed[byte] = 127
+            try:
+                told.append(len(list(tvg.open(bytes(changed), on_damage=lambda damage: None))))
+            except tvg.Error:
+                pass
+        self.assertLessEqual(max(told), 30)
 
     def test_every_truncation_is_an_error_or_damage(self):
         for size in range(0, len(self.stream), 97):

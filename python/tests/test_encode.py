@@ -61,7 +61,11 @@ class RoundTrips(unittest.TestCase):
 
     def test_frame_rates_and_metadata_come_back(self):
         stream = tvg.encode(
-            wave(2), grid(), fps=Fraction(30000, 1001), metadata={"units": "m", "größe": "ü"}, data={"a": b"\0b" * 999}
+            wave(2),
+            grid(),
+            fps=Fraction(30000, 1001),
+            metadata={"units": "m", "größe": "ü"},
+            data={"a": b"\0b" * 999},
         )
         with tvg.open(stream) as clip:
             self.assertAlmostEqual(clip.fps, 29.97, places=3)
@@ -151,7 +155,9 @@ class Attributes(unittest.TestCase):
             self.assertEqual(kinds["heat"], ("generic", "vertex", False))
             self.assertEqual(kinds["color"], ("colour", "corner", False))
             self.assertEqual(kinds["speed"], ("generic", "vertex", True))
-            np.testing.assert_array_equal(clip.attributes["heat"].values[:, 0], given["heat"].astype(np.float32))
+            np.testing.assert_array_equal(
+                clip.attributes["heat"].values[:, 0], given["heat"].astype(np.float32)
+            )
             np.testing.assert_allclose(clip.attributes["uv"].values, given["uv"], atol=2**-12)
             red = {tuple(sorted(face)): value for face, value in zip(faces.tolist(), given["color"][:, 0, 0])}
             for face, value in zip(clip.faces.tolist(), clip.attributes["color"].at_corners()):
@@ -313,7 +319,16 @@ class BesideTheTool(unittest.TestCase):
                 "--lossless": {"lossless": True},
                 "--predictor auto --reorder": {"predictor": "auto", "reorder": True},
             }.items():
-                command = [os.environ["TVG_TOOL"], "encode", mesh, cache, "-o", made, "--quiet", *words.split()]
+                command = [
+                    os.environ["TVG_TOOL"],
+                    "encode",
+                    mesh,
+                    cache,
+                    "-o",
+                    made,
+                    "--quiet",
+                    *words.split(),
+                ]
                 subprocess.run(command, check=True)
                 own = tvg.encode(positions, grid(), **options)
                 self.assertEqual(own, pathlib.Path(made).read_bytes(), words)

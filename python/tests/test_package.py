@@ -60,7 +60,9 @@ class Library(unittest.TestCase):
         if folder is not None:
             environment["PYTHONPATH"] = str(folder)
         program = "import tvg; print(tvg.version(), tvg.__file__)"
-        return subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, cwd="/")
+        return subprocess.run(
+            [sys.executable, "-c", program], env=environment, capture_output=True, text=True, cwd="/"
+        )
 
     def test_one_that_is_not_there_is_named(self):
         result = self.imported("/nowhere/libtvg.so")
@@ -78,7 +80,9 @@ class Library(unittest.TestCase):
     def test_a_wheel_brings_the_library_and_works_where_it_is_put(self):
         with tempfile.TemporaryDirectory() as folder:
             source, wheels, site = (pathlib.Path(folder, name) for name in ("source", "wheels", "site"))
-            shutil.copytree(PACKAGE, source, ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
+            shutil.copytree(
+                PACKAGE, source, ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__")
+            )
             shutil.copy(PROJECT / "LICENSE", folder)
             pip = [sys.executable, "-m", "pip", "-q", "--disable-pip-version-check"]
             offline = ["--no-index", "--no-deps"]
@@ -87,9 +91,13 @@ class Library(unittest.TestCase):
             subprocess.run(command, check=True, env=environment)
             (wheel,) = wheels.glob("tvg-*.whl")
             self.assertNotIn("none-any", wheel.name)
-            subprocess.run(pip + ["install", "--target", str(site), str(wheel)] + offline, check=True, env=environment)
+            subprocess.run(
+                pip + ["install", "--target", str(site), str(wheel)] + offline, check=True, env=environment
+            )
             result = self.imported(None, site)
-            self.assertEqual(result.stdout.split(), [tvg.version(), str(site / "tvg" / "__init__.py")], result.stderr)
+            self.assertEqual(
+                result.stdout.split(), [tvg.version(), str(site / "tvg" / "__init__.py")], result.stderr
+            )
 
 
 class Scripts(unittest.TestCase):
@@ -99,7 +107,10 @@ class Scripts(unittest.TestCase):
             write_obj(mesh, wave(1)[0], grid())
             np.save(positions, wave(8))
             script = [sys.executable, str(PACKAGE / "examples" / "rate_distortion.py"), mesh, positions]
-            for more, lines in ((["--table1"], 12), (["--bits", "9-10", "--plot", os.path.join(folder, "a.svg")], 7)):
+            for more, lines in (
+                (["--table1"], 12),
+                (["--bits", "9-10", "--plot", os.path.join(folder, "a.svg")], 7),
+            ):
                 output = subprocess.run(script + more, check=True, capture_output=True, text=True).stdout
                 self.assertEqual(len(output.splitlines()), lines, output)
 

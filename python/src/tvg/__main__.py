@@ -10,7 +10,9 @@ def describe(path: str) -> str:
     """What a stream has."""
     with open(path) as clip:
         rate = "" if clip.fps is None else f", {clip.fps:g} frames per second"
-        lines = [f"{path}: {len(clip)} frames of {clip.mesh.vertex_count} vertices, {len(clip.faces)} faces{rate}"]
+        lines = [
+            f"{path}: {len(clip)} frames of {clip.mesh.vertex_count} vertices, {len(clip.faces)} faces{rate}"
+        ]
         gop = clip[0].gop if len(clip) else None
         if gop is not None and gop.mode == "lossless":
             lines.append("  mode lossless")

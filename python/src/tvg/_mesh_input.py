@@ -175,4 +175,3 @@ def _parts_of_faces(face_parts: npt.ArrayLike, triangles: int, made: Optional[In
             f"face_parts have the shape {array.shape}: there is one for each of {triangles} faces"
         )
     return array
-

@@ -201,7 +201,8 @@ class Reader:
             return  # as if there were none: the decoder reports it where it comes to it
         info = s.sized(s.StreamInfo)
         self._lib.tvg_decoder_get_stream(self._decoder, ctypes.byref(info))
-        if info.frame_count != s.UNKNOWN:
+        # An index that lies is found out where frames are read; until then no list is made as long as it says.
+        if info.frame_count <= size:
             self.frame_count = info.frame_count
 
     def _take_metadata(self) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._reader import Reader, Settings
 from ._source import ByteSource, Source, open_source
-from .errors import Damage, Error
+from .errors import Code, Damage, Error
 from .model import Attributes, Floats, Frame, Indices, Mesh, Part
 
 
@@ -65,7 +65,13 @@ class Frames(Sequence[Frame]):
         vertices = self._clip.mesh.vertex_count
         shape = (len(self), vertices, 3)
         if out is None:
-            out = np.empty(shape, np.float32)
+            try:
+                out = np.empty(shape, np.float32)
+            except MemoryError:
+                size = 12 * len(self) * vertices
+                raise Error(
+                    Code.OUT_OF_MEMORY, f"all positions take {size} bytes: take frame after frame"
+                ) from None
         elif out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous:
             raise ValueError(
                 f"out is {out.dtype} {out.shape}: it has to be C-contiguous float32 {shape}, [frame, vertex, 3]"
@@ -186,6 +192,11 @@ class Clip(Sequence[Frame]):
             finally:
                 reader.close()
             self._frame_count = count
+        if self._source.size is not None and self._frame_count > self._source.size:
+            # list(clip) would make room for them all; after a TypeError it goes by what comes.
+            raise TypeError(
+                f"{self._name} says it has {self._frame_count} frames, more than bytes: go through them"
+            )
         return self._frame_count
 
     def __iter__(self) -> Iterator[Frame]:
