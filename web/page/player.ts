@@ -43,6 +43,7 @@ let fitted = false;
 player.addEventListener("canplay", () => {
   notice.goOn();
   notice.clear();
+  if (stage) stage.bottom = innerHeight - document.getElementById("bar")!.offsetTop;
   if (!fitted) stage?.fit(player.metadata.get("up") === "z");
   fitted = true;
   void mesh.ready.then(() => stage?.refresh());

@@ -16,6 +16,8 @@ export class Stage {
   private readonly scene = new THREE.Scene();
   private readonly sky = new THREE.HemisphereLight(new THREE.Color(0.3, 0.325, 0.36), new THREE.Color(0.13, 0.115, 0.11), Math.PI);
   private stale = true;
+  /** Pixels at the canvas' lower edge that something covers: the middle is that of what is above. */
+  bottom = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -46,13 +48,18 @@ export class Stage {
     const size = this.renderer.getSize(new THREE.Vector2());
     if (size.x !== clientWidth || size.y !== clientHeight) {
       this.renderer.setSize(clientWidth, clientHeight, false);
-      this.camera.aspect = clientWidth / Math.max(1, clientHeight);
-      this.camera.updateProjectionMatrix();
-      this.stale = true;
+      this.place();
     }
     if (!this.stale || !this.mesh.player.frame) return;
     this.stale = false;
     this.renderer.render(this.scene, this.camera);
+  }
+
+  private place(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.camera.aspect = width / Math.max(1, height);
+    this.camera.setViewOffset(width, height, 0, this.bottom / 2, width, height);
+    this.stale = true;
   }
 
   /** Puts the frame into the middle of the picture, as near as its box allows, with room for so much of its radius. */
@@ -70,7 +77,10 @@ export class Stage {
     this.controls = this.newControls();
     this.sky.position.copy(up);
     const axes = axesOf(isUpZ);
-    const { target, distance } = fitBox(box, center, axes, this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight));
+    const { clientWidth, clientHeight } = this.canvas;
+    this.place();
+    const share = 1 - Math.min(this.bottom / Math.max(1, clientHeight), 0.5);
+    const { target, distance } = fitBox(box, center, axes, clientWidth / Math.max(1, clientHeight), share);
     this.camera.position.copy(target).addScaledVector(axes.backward, distance);
     this.camera.near = distance / 100;
     this.camera.far = distance + 100 * radius;
@@ -117,10 +127,16 @@ function axesOf(isUpZ: boolean): Axes {
   return { right, up, backward };
 }
 
-/** A corner that lies (x, y, z) from the middle is in the picture from the distance d where |x - x0| <= slope (d - z). */
-function fitBox(box: THREE.Box3, center: THREE.Vector3, axes: Axes, aspect: number): { target: THREE.Vector3; distance: number } {
+/** A corner that lies (x, y, z) from the middle is in the picture from the distance d where |x - x0| <= slope (d - z); only a share of its height is used. */
+function fitBox(
+  box: THREE.Box3,
+  center: THREE.Vector3,
+  axes: Axes,
+  aspect: number,
+  share: number,
+): { target: THREE.Vector3; distance: number } {
   const slopeY = Math.tan((kFieldOfView * Math.PI) / 360) / kMargin;
-  const slopes = [slopeY * aspect, slopeY];
+  const slopes = [slopeY * aspect, slopeY * share];
   const sides = [axes.right, axes.up];
   const low = [Infinity, Infinity];
   const high = [-Infinity, -Infinity];

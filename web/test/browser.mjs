@@ -178,6 +178,7 @@ async function compared(page) {
   await goTo(page, 0);
   await page.addStyleTag({ content: "#player { background: #fff !important } #bar, #title, #status, #loading { display: none !important }" });
   // As the tool frames a single picture: by the box itself.
+  await page.evaluate(() => (tvgStage.bottom = 0));
   await page.evaluate(() => tvgStage.fit(tvgPlayer.metadata.get("up") === "z", 0));
   await page.waitForTimeout(500);
   const shot = await page.screenshot();
