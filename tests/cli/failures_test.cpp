@@ -13,7 +13,7 @@ TEST_F(ToolTest, UsageErrorsShowWhatIsRight) {
   const std::string encode = "tvg encode hand.obj hand.pc2 -o no.tvg ";
   expect_failure("tvg", 1, "encode");
   expect_failure("tvg encoed", 1, "encoed");
-  expect_failure("tvg encode hand.obj hand.pc2", 1, "--output");
+  expect_failure("tvg encode - <hand.pc2", 1, "--output");
   expect_failure(encode + "--bits 11:13", 1, "13:11");
   expect_failure(encode + "--bits x", 1, "13:11");
   expect_failure(encode + "--bits 25", 1, "1 to 24");

@@ -177,7 +177,8 @@ export class HttpSource implements ByteSource {
     const { signal } = this.options;
     signal?.addEventListener("abort", () => request.abort(signal.reason), { once: true, signal: request.signal });
     const from = this.ranges === false ? 0 : gap;
-    const response = await this.fetch(from > 0 ? `bytes=${from}-` : undefined, request.signal);
+    // Asked for a range from the first byte on, no server packs its answer: offsets in what is packed mean nothing.
+    const response = await this.fetch(this.options.live ? undefined : `bytes=${from}-`, request.signal);
     if (connection !== this.connection) return;
     this.at = response.status === 206 ? from : 0;
     this.learn(response, gap);
