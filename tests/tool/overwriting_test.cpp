@@ -1,5 +1,6 @@
-#include "tests/importers/io_toolbox.hpp"
 #include "tool/overwriting.hpp"
+
+#include "tests/importers/io_toolbox.hpp"
 #include "tool/tool_error.hpp"
 
 #include <filesystem>
