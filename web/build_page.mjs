@@ -1,4 +1,5 @@
-// build_page.mjs FOLDER TVG.WASM: puts the page of `tvg page` together in FOLDER. Needs `npm ci` here.
+// build_page.mjs FOLDER TVG.WASM: puts the page of `tvg page` together in FOLDER, and the package's worker into one file
+// beside it. Needs `npm ci` here.
 import { build } from "esbuild";
 import { copyFileSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -13,6 +14,8 @@ const worker = await build({
   write: false,
   define: { "import.meta.url": "self.location.href" },
 });
+// The package's worker in one file: its modules by themselves would be fetched one after another.
+await build({ ...common, define: {}, format: "esm", entryPoints: [join(home, "src/worker.ts")], outfile: join(folder, "../dist/worker.js") });
 mkdirSync(folder, { recursive: true });
 await build({
   ...common,

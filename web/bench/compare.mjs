@@ -1,6 +1,7 @@
-// compare.mjs TVG_TOOL PACKAGE MESH CACHE: one animation on a web page in four ways, in one run of chromium: a stream in
-// mode elp and in mode basis, a Draco file for each frame (three's DRACOLoader), and a glTF whose frames are morph targets,
-// packed with meshopt. Needs chromium, npm ci in web/, Debian's draco, and gltfpack (npx takes it from npm).
+// compare.mjs TVG_TOOL PACKAGE MESH CACHE: one animation on a web page in five ways, in one run of chromium: a stream in
+// mode elp, and in mode basis made by the CPU and by the GPU; a Draco file for each frame (three's DRACOLoader); and a glTF
+// whose frames are morph targets, packed with meshopt. Needs chromium, npm ci in web/, Debian's draco, and gltfpack (npx
+// takes it from npm).
 import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, symlinkSync } from "node:fs";
 import { createServer } from "node:http";
@@ -19,7 +20,7 @@ const folder = mkdtempSync(join(tmpdir(), "tvg-compare-"));
 const run = (program, ...args) => execFileSync(program, args, { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
 const sizeOf = (name) => statSync(join(folder, name)).size;
 
-/** All four have positions on 12 bits of the same box. */
+/** All have positions on 12 bits of the same box. */
 function makeFiles() {
   const input = [resolve(mesh), resolve(cache)];
   run(tool, "encode", ...input, "-o", "elp.tvg", "--bits", kBits, "-q");
@@ -84,6 +85,7 @@ try {
   const sizes = {
     elp: sizeOf("elp.tvg"),
     basis: sizeOf("basis.tvg"),
+    "basis on the GPU": sizeOf("basis.tvg"),
     draco: frames.reduce((sum, name) => sum + sizeOf(name), 0),
     morph: sizeOf("morph.glb"),
   };

@@ -2,9 +2,11 @@
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import { chunksOf } from "./chunks.mjs";
 
 const types = { html: "text/html", js: "text/javascript", css: "text/css", wasm: "application/wasm", tvg: "model/vnd.tvg", png: "image/png", json: "application/json" };
+const packed = new Set(["html", "js", "css", "wasm"]);
 const kTick = 20;
 
 /**
@@ -51,7 +53,14 @@ export async function servePage(folder, files = {}) {
     const range = /^bytes=(\d+)-(\d*)$/.exec(request.headers.range ?? "");
     const from = range ? Number(range[1]) : 0;
     const to = range?.[2] ? Math.min(Number(range[2]) + 1, body.length) : body.length;
-    const headers = { "Content-Type": types[name.split(".").pop()] ?? "application/octet-stream", "Content-Length": to - from };
+    const kind = name.split(".").pop();
+    const headers = { "Content-Type": types[kind] ?? "application/octet-stream", "Content-Length": to - from };
+    // As hosts are set up.
+    if (packed.has(kind)) {
+      const answer = gzipSync(body);
+      response.writeHead(200, { ...headers, "Content-Length": answer.length, "Content-Encoding": "gzip" });
+      return send(response, answer);
+    }
     if (range) headers["Content-Range"] = `bytes ${from}-${to - 1}/${body.length}`;
     response.writeHead(range ? 206 : 200, headers);
     if (name.endsWith(".tvg") && to - from > state.cutAfter && state.cuts-- > 0) {
