@@ -49,7 +49,15 @@ player.addEventListener("canplay", () => {
   void mesh.ready.then(() => stage?.refresh());
   player.play();
 });
-player.addEventListener("frame", () => stage?.refresh());
+/** When it was last looked whether the mesh is still in the picture, and how often that is done. */
+let looked = 0;
+const kLookMs = 500;
+player.addEventListener("frame", () => {
+  stage?.refresh();
+  if (!fitted || performance.now() - looked < kLookMs) return;
+  looked = performance.now();
+  stage?.keepInView();
+});
 player.addEventListener("progress", () => {
   if (notice.waits && !player.frame) notice.wait(player.progress?.firstFrames);
 });

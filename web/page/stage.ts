@@ -16,6 +16,10 @@ export class Stage {
   private readonly scene = new THREE.Scene();
   private readonly sky = new THREE.HemisphereLight(new THREE.Color(0.3, 0.325, 0.36), new THREE.Color(0.13, 0.115, 0.11), Math.PI);
   private stale = true;
+  /** What the camera was placed to show, and whether somebody has placed it otherwise since. */
+  private readonly shown = new THREE.Box3();
+  private isUpZ = false;
+  private isTurned = false;
   /** Pixels at the canvas' lower edge that something covers: the middle is that of what is above. */
   bottom = 0;
 
@@ -66,10 +70,26 @@ export class Stage {
   fit(isUpZ: boolean, room = 0.24): void {
     const { geometry } = this.mesh;
     geometry.computeBoundingBox();
-    const box = geometry.boundingBox!;
+    const radius = radiusOf(geometry.boundingBox!);
+    this.isUpZ = isUpZ;
+    this.isTurned = false;
+    this.shown.copy(geometry.boundingBox!).expandByScalar(room * radius);
+    this.show(radius);
+  }
+
+  /** Shows more where the mesh has moved out of the picture, unless somebody has chosen the view. */
+  keepInView(): void {
+    if (this.isTurned || this.shown.isEmpty()) return;
+    const { geometry } = this.mesh;
+    geometry.computeBoundingBox();
+    if (this.shown.containsBox(geometry.boundingBox!)) return;
+    this.shown.union(geometry.boundingBox!);
+    this.show(radiusOf(this.shown));
+  }
+
+  private show(radius: number): void {
+    const { isUpZ, shown: box } = this;
     const center = box.getCenter(new THREE.Vector3());
-    const radius = box.getSize(new THREE.Vector3()).length() / 2 || 1;
-    box.expandByScalar(room * radius);
     const up = isUpZ ? new THREE.Vector3(0, 0, 1) : new THREE.Vector3(0, 1, 0);
     this.camera.up.copy(up);
     // They ask for the upright axis when they are made.
@@ -93,12 +113,14 @@ export class Stage {
   private newControls(): OrbitControls {
     const controls = new OrbitControls(this.camera, this.canvas);
     controls.addEventListener("change", () => this.refresh());
+    controls.addEventListener("start", () => (this.isTurned = true));
     return controls;
   }
 
   /** Turns the view about the upright axis and to the top, in radians. */
   orbit(around: number, up: number): void {
     const { camera, controls } = this;
+    this.isTurned = true;
     const offset = camera.position.clone().sub(controls.target);
     const side = new THREE.Vector3().crossVectors(camera.up, offset).normalize();
     offset.applyAxisAngle(camera.up, around).applyAxisAngle(side, up);
@@ -107,10 +129,13 @@ export class Stage {
   }
 
   zoom(by: number): void {
+    this.isTurned = true;
     this.camera.position.sub(this.controls.target).multiplyScalar(by).add(this.controls.target);
     this.controls.update();
   }
 }
+
+const radiusOf = (box: THREE.Box3): number => box.getSize(new THREE.Vector3()).length() / 2 || 1;
 
 interface Axes {
   right: THREE.Vector3;
