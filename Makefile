@@ -37,7 +37,7 @@ test: build
 web: export NODE_PATH ?= /usr/share/nodejs
 web:
 	@scripts/install_packages.sh web
-	@cd web && npm ci --silent --ignore-scripts --no-audit --no-fund
+	@cd web && npm ci --loglevel=error --ignore-scripts --no-audit --no-fund
 	@$(CONFIGURE) wasm -DTVG_BUILD_TESTS=OFF >/dev/null
 	$(call BUILD,build/wasm,--target tvg_web)
 	@cd build/wasm && npm pack --silent ./web
