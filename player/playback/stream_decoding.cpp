@@ -193,7 +193,10 @@ void StreamLoader::advance() {
 }
 
 void StreamLoader::feed() {
-  offset_ += decoder_->skip();
+  if (const std::uint64_t passed = decoder_->skip(); passed > 0) {
+    offset_ += passed;
+    return;  // at the end of a chunk there may be more to pass
+  }
   const Result<std::size_t> count = input_->read(offset_, piece_);
   if (!count) {
     {
