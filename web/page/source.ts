@@ -24,6 +24,13 @@ export function sourceOf(root: HTMLElement, address: Location): PageSource {
   return { url, isLive: false, title: (own ? root.dataset.title : fileName(url)) ?? "", poster };
 }
 
+/** What a reader would call it: a ladder goes by its folder. */
 function fileName(url: string): string {
-  return decodeURIComponent(url.split(/[?#]/)[0]!.split("/").pop()!).replace(/\.(tvg|json)$/, "");
+  const parts = url.split(/[?#]/)[0]!.split("/").filter((part) => part !== "");
+  const name = (parts.length > 1 && parts[parts.length - 1] === "ladder.json" ? parts[parts.length - 2] : parts.pop()) ?? "";
+  try {
+    return decodeURIComponent(name).replace(/\.(tvg|json)$/, "");
+  } catch {
+    return name;
+  }
 }
