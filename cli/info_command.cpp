@@ -173,6 +173,9 @@ StreamSummary summarize(const std::string& path, bool bits) {
   StreamSummary summary;
   StreamReader reader(path);
   summary.file = reader.name();
+  if (bits && is_address(path) && !reader.size()) {
+    throw ToolError(ExitStatus::kUsage, "--bits reads the stream twice: it takes no live one");
+  }
   const auto read = [&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
     return Result<std::size_t>(reader.read_from(offset, bytes));
   };
@@ -181,8 +184,9 @@ StreamSummary summarize(const std::string& path, bool bits) {
   summary.stream = std::move(*stream);
   summary.damages = summary.stream.findings.size();
   const auto is_times = [](const SurveyedData& data) { return data.name == "times"; };
-  summary.time =
-      time_base_of(summary.stream.metadata, std::ranges::any_of(summary.stream.data, is_times), path);
+  // What can be read only once has no second look for its times.
+  const bool has_times = reader.size() && std::ranges::any_of(summary.stream.data, is_times);
+  summary.time = time_base_of(summary.stream.metadata, has_times, path);
   if (bits) summary.decoded = decode_facts(path, summary.damages);
   return summary;
 }
@@ -376,7 +380,9 @@ void add_info_command(CLI::App& tool) {
   auto arguments = std::make_shared<InfoArguments>();
   CLI::App& command =
       *tool.add_subcommand("info", "Show what a .tvg holds and where its bytes go, or what a scene holds");
-  command.add_option("input", arguments->input, "the stream (- for standard input), a scene or a BVH file")
+  command
+      .add_option("input", arguments->input,
+                  "the stream (- for standard input; an http or https URL too), a scene or a BVH file")
       ->required();
   command.add_option("--fps", arguments->fps, "count the frames of a scene's clips at this rate")
       ->capture_default_str();

@@ -4,6 +4,7 @@
 #include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
+#include "tool/remote_stream.hpp"
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -34,6 +35,15 @@ void allow_many_open_files() {
 }
 
 JoinInput open_input(const std::string& path) {
+  if (is_address(path)) {
+    const std::shared_ptr<RemoteStream> remote = open_remote_stream(path);
+    return {remote->name(),
+            [remote, at = std::uint64_t{0}](std::span<std::uint8_t> bytes) mutable -> Result<std::size_t> {
+              const std::size_t count = remote->read(at, bytes);
+              at += count;
+              return count;
+            }};
+  }
   auto file = std::make_shared<InputFile>(path);
   return {file->name(), [file](std::span<std::uint8_t> bytes) -> Result<std::size_t> {
             return file->read(bytes.data(), bytes.size());

@@ -1,6 +1,9 @@
 #include "cli/commands.hpp"
 #include "cli/usage_error.hpp"
 #include "tool/atomic_file.hpp"
+#ifdef TVG_HAS_PLAYER
+#include "player/playback/remote_input.hpp"
+#endif
 #include "tool/overwriting.hpp"
 #include "tool/tool_error.hpp"
 
@@ -32,6 +35,7 @@ int main(int argc, char** argv) {
   add_ladder_command(tool);
   add_page_command(tool);
 #ifdef TVG_HAS_PLAYER
+  use_remote_opener(tvg::player::open_remote_input);
   add_play_command(tool);
   add_render_command(tool);
   add_serve_command(tool);

@@ -1,6 +1,7 @@
 #include "cli/page_streams.hpp"
 
 #include "cli/encode_job.hpp"
+#include "tool/remote_stream.hpp"
 #include "tool/stream_reader.hpp"
 #include "tool/stream_source.hpp"
 #include "tool/tool_error.hpp"
@@ -54,6 +55,17 @@ void check_is_stream(const std::string& path) {
         break;
     }
   }
+}
+
+void fetch(const std::string& url, AtomicFile& file) {
+  const std::unique_ptr<RemoteStream> remote = open_remote_stream(url);
+  std::vector<std::uint8_t> piece(std::size_t{1} << 18);
+  std::uint64_t at = 0;
+  while (const std::size_t count = remote->read(at, piece)) {
+    file.write(piece.data(), count);
+    at += count;
+  }
+  file.flush();
 }
 
 /// Copies a file into the folder, unless it is there already.
@@ -137,6 +149,11 @@ PageStream put_streams(const PageArguments& arguments, AtomicFolder& folder) {
     const std::string& input = arguments.inputs.front();
     check_takes_no_encoding(arguments);
     check_is_stream(input);
+    if (is_address(input)) {
+      AtomicFile& file = folder.add(kClip);
+      fetch(input, file);
+      return {kClip, file.temporary_path()};
+    }
     copy_into(folder, kClip, input);
     return {kClip, input};
   }
@@ -151,8 +168,11 @@ std::string stream_of(const PageArguments& arguments, AtomicFile& scratch) {
     return scratch.temporary_path();
   }
   check_takes_no_encoding(arguments);
-  check_is_stream(arguments.inputs.front());
-  return arguments.inputs.front();
+  const std::string& input = arguments.inputs.front();
+  check_is_stream(input);
+  if (!is_address(input)) return input;
+  fetch(input, scratch);
+  return scratch.temporary_path();
 }
 
 }  // namespace tvg::cli

@@ -25,8 +25,16 @@ constexpr std::uint64_t kMaxIndexBytes = std::uint64_t{1} << 26;
 
 StreamReader::StreamReader(const std::string& path)
     : name_(path == "-" ? "standard input" : path),
-      descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)),
+      remote_(is_address(path) ? open_remote_stream(path) : nullptr),
+      descriptor_(path == "-" ? STDIN_FILENO
+                  : remote_   ? -1
+                              : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)),
       piece_(kPieceBytes) {
+  if (remote_) {
+    name_ = remote_->name();
+    size_ = remote_->size();
+    return;
+  }
   if (descriptor_ < 0) throw io_error(name_, "cannot be opened");
   struct stat status {};
   if (::fstat(descriptor_, &status) == 0) {
@@ -44,6 +52,11 @@ StreamReader::~StreamReader() {
 }
 
 std::size_t StreamReader::read_some(void* target, std::size_t size) {
+  if (remote_) {
+    const std::size_t count = remote_->read(remote_position_, {static_cast<std::uint8_t*>(target), size});
+    remote_position_ += count;
+    return count;
+  }
   for (;;) {
     const ssize_t count = ::read(descriptor_, target, size);
     if (count >= 0) return static_cast<std::size_t>(count);
@@ -90,6 +103,12 @@ std::vector<std::uint8_t> StreamReader::read_at(std::uint64_t offset, std::size_
   std::vector<std::uint8_t> bytes(size);
   std::size_t done = 0;
   while (done < size) {
+    if (remote_) {
+      const std::size_t count = remote_->read(offset + done, std::span(bytes).subspan(done));
+      if (count == 0) break;
+      done += count;
+      continue;
+    }
     const ssize_t count =
         ::pread(descriptor_, bytes.data() + done, size - done, static_cast<off_t>(offset + done));
     if (count < 0 && errno == EINTR) continue;
@@ -124,6 +143,10 @@ void StreamReader::seek(std::uint64_t frame) {
 }
 
 void StreamReader::move_to(std::uint64_t offset, int whence) {
+  if (remote_) {
+    remote_position_ = whence == SEEK_CUR ? remote_position_ + offset : offset;
+    return;
+  }
   if (::lseek(descriptor_, static_cast<off_t>(offset), whence) < 0) throw io_error(name_, "cannot be read");
 }
 

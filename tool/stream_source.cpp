@@ -10,7 +10,7 @@
 namespace tvg::cli {
 
 bool is_stream_file(const std::string& path) {
-  return has_suffix(path, ".tvg");
+  return has_suffix(path, ".tvg") || is_address(path);
 }
 
 StreamSource::StreamSource(std::string path) : path_(std::move(path)) {

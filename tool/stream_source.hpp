@@ -8,7 +8,7 @@
 
 namespace tvg::cli {
 
-/// Whether a path names a .tvg.
+/// Whether a path names a .tvg; nothing else is behind a URL.
 bool is_stream_file(const std::string& path);
 
 /// The frames of a .tvg as a source. A damaged stream yields an error, whose message names the file; so does

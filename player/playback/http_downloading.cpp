@@ -164,7 +164,7 @@ bool HttpInput::accept_head(const HttpHead& head) {
     return same_resource(head);
   }
   if (head.status == 416) {
-    give_up(fmt::format("has changed while it was played: there is no byte {} any more", requested_), false);
+    give_up(fmt::format("has changed meanwhile: there is no byte {} any more", requested_), false);
   } else if (worth_retrying(head.status)) {
     retry(fmt::format("the server answers with status {}", head.status));
   } else {
@@ -180,7 +180,7 @@ bool HttpInput::same_resource(const HttpHead& head) {
   const bool other_tag = !etag_.empty() && !head.etag.empty() && head.etag != etag_;
   const bool other_size = size_ && total && *total != *size_;
   if (!other_tag && !other_size) return true;
-  give_up("has changed while it was played: open it anew", false);
+  give_up("has changed meanwhile: open it anew", false);
   return false;
 }
 
