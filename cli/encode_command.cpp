@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 #include <memory>
 
@@ -21,6 +22,7 @@ constexpr double kUsualFrameRate = 30;
 struct EncodeCommandArguments : EncodeArguments {
   std::string output;
   bool loop = false;
+  bool json = false;
 };
 
 /// How the frames come: a pipe's when they come, others at their rate.
@@ -62,6 +64,11 @@ EncodeReport encode_as_it_comes(const EncodeCommandArguments& arguments, const E
 }
 
 void run_encode(const EncodeCommandArguments& arguments) {
+  const auto begun = std::chrono::steady_clock::now();
+  if (arguments.json && arguments.output == "-") {
+    throw ToolError(ExitStatus::kUsage,
+                    "--json prints to standard output, where -o - writes the stream: name a file");
+  }
   EncodeOptions options = encode_options(arguments);
   files_of(arguments, arguments.measure.weights()).check_output(arguments.output);
   if (arguments.live && arguments.levels.any())
@@ -76,8 +83,13 @@ void run_encode(const EncodeCommandArguments& arguments) {
   const EncodeReport report = arguments.live ? encode_as_it_comes(arguments, options, *opened.source, sink)
                                              : encode_frames(*opened.source, options, sink, arguments);
   output->finish();
+  if (arguments.json) {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begun;
+    print_encode_json(arguments.output, report, taken.count());
+  }
   if (arguments.quiet) return;
   print_later_notes(opened);
+  if (arguments.json) return;
   print_encode_report(arguments.output == "-" ? "standard output" : arguments.output, report);
 }
 
@@ -110,6 +122,7 @@ void add_encode_command(CLI::App& tool) {
                      "the stream to write; - for standard output; an http or https URL for an upload by PUT "
                      "(default: named after the first input, beside it)");
   add_mesh_bounds(command, *arguments);
+  command.add_flag("--json", arguments->json, "print the report as JSON on standard output");
   auto* live =
       command
           .add_flag("--live", arguments->live,

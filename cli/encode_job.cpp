@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <tvg/metrics.hpp>
 
@@ -43,6 +44,25 @@ EncodeReport encode_frames(FrameSource& source, const EncodeOptions& options, co
   if (!report) throw tool_error(input_names(arguments), report.error());
   bar.clear();
   return *report;
+}
+
+void print_encode_json(const std::string& output, const EncodeReport& report, double seconds) {
+  nlohmann::json json = {
+      {"file", output},
+      {"frames", report.frames},
+      {"vertices", report.vertices},
+      {"meshes", report.meshes},
+      {"gops", report.gops},
+      {"bytes", report.bytes},
+      {"bits_per_coordinate", bits_per_coordinate(report.bytes, report.vertex_frames, 1)},
+      {"ratio", 12 * static_cast<double>(report.vertex_frames) / static_cast<double>(report.bytes)},
+      {"largest_error", nullptr},
+      {"box_of_each_gop", report.box_of_each_gop},
+      {"vertex_order_given_up", report.captured},
+      {"polygons_left_out", report.polygons_left_out},
+      {"seconds", seconds}};
+  if (report.largest_error > 0) json["largest_error"] = report.largest_error;
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 void print_encode_report(const std::string& output, const EncodeReport& report) {

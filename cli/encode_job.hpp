@@ -17,6 +17,10 @@ OpenedInput open_for_encoding(const EncodeArguments& arguments, EncodeOptions& o
 EncodeReport encode_frames(FrameSource& source, const EncodeOptions& options, const ByteSink& sink,
                            const EncodeArguments& arguments);
 
+/// Prints what became of the frames to standard output as JSON, with what a caller would be told in words.
+/// `seconds`: what it took.
+void print_encode_json(const std::string& output, const EncodeReport& report, double seconds);
+
 /// Prints what became of the frames to standard error. `output`: its name.
 void print_encode_report(const std::string& output, const EncodeReport& report);
 

@@ -81,6 +81,14 @@ TEST_F(UrlsTest, APageTakesTheStreamAlong) {
   EXPECT_EQ(result.status, 0) << result.err;
 }
 
+TEST_F(UrlsTest, PicturesAreDrawnOfAnAddress) {
+  const Outcome result = served(
+      "tvg render -q ${U}hand.tvg --frames 3 -o a.png; tvg render -q hand.tvg --frames 3 -o b.png; cmp a.png "
+      "b.png");
+  if (result.err.find("EGL") != std::string::npos) GTEST_SKIP() << "this machine cannot draw";
+  EXPECT_EQ(result.status, 0) << result.err;
+}
+
 TEST_F(UrlsTest, WhatIsNotThereIsAnIoErrorThatNamesTheAddress) {
   for (const char* command : {"info", "verify", "decode -o x.pc2", "compare hand.tvg", "join -o x.tvg"}) {
     const Outcome result = served(std::string("tvg ") + command + " ${U}gone.tvg");
