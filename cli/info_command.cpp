@@ -167,14 +167,12 @@ DecodedFacts decode_facts(const std::string& path, std::uint64_t& damages) {
 }
 
 StreamSummary summarize(const std::string& path, bool bits) {
-  if (bits && path == "-") {
-    throw ToolError(ExitStatus::kUsage, "--bits reads the stream twice: it takes a file, not standard input");
-  }
   StreamSummary summary;
   StreamReader reader(path);
   summary.file = reader.name();
-  if (bits && is_address(path) && !reader.size()) {
-    throw ToolError(ExitStatus::kUsage, "--bits reads the stream twice: it takes no live one");
+  if (bits && (path == "-" || !reader.size())) {
+    throw ToolError(ExitStatus::kUsage,
+                    "--bits reads the stream twice: it takes a file, not standard input or a live stream");
   }
   const auto read = [&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
     return Result<std::size_t>(reader.read_from(offset, bytes));
