@@ -170,10 +170,8 @@ StreamSummary summarize(const std::string& path, bool bits) {
   StreamSummary summary;
   StreamReader reader(path);
   summary.file = reader.name();
-  if (bits && (path == "-" || !reader.size())) {
-    throw ToolError(ExitStatus::kUsage,
-                    "--bits reads the stream twice: it takes a file, not standard input or a live stream");
-  }
+  if (bits && (path == "-" || !reader.size()))
+    throw ToolError(ExitStatus::kUsage, "--bits reads the stream twice: no standard input, nothing live");
   const auto read = [&reader](std::uint64_t offset, std::span<std::uint8_t> bytes) {
     return Result<std::size_t>(reader.read_from(offset, bytes));
   };
