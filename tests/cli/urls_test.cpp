@@ -85,7 +85,8 @@ TEST_F(UrlsTest, PicturesAreDrawnOfAnAddress) {
   const Outcome result = served(
       "tvg render -q ${U}hand.tvg --frames 3 -o a.png; tvg render -q hand.tvg --frames 3 -o b.png; cmp a.png "
       "b.png");
-  if (result.err.find("EGL") != std::string::npos) GTEST_SKIP() << "this machine cannot draw";
+  if (result.err.find("cannot draw without a display") != std::string::npos)
+    GTEST_SKIP() << "this machine cannot draw";
   EXPECT_EQ(result.status, 0) << result.err;
 }
 
