@@ -88,6 +88,18 @@ assert len(clip) == kFrames and clip.fps == 24
 assert [part.object for part in clip.parts] == [item.name for item in items for _ in (item.material_slots or [0])]
 step = clip[0].gop.coarse_step  # 12 bits for important vertices, 11 for others
 
+# A mesh that changes on the way is refused, by name and frame, and nothing is left of its file.
+cloth_object = bpy.data.objects["Cloth"]
+build = cloth_object.modifiers.new("Build", "BUILD")
+build.frame_start, build.frame_duration = 5, 8
+refused = os.path.join(folder, "changing.tvg")
+try:
+    bpy.ops.export_scene.tvg(filepath=refused)
+    raise AssertionError("a mesh that changes was exported")
+except RuntimeError as error:
+    assert "frame" in str(error), error
+assert os.listdir(folder) == ["wave.tvg"], os.listdir(folder)
+
 clear()
 assert bpy.ops.import_scene.tvg(filepath=stream, set_frame_rate=True) == {"FINISHED"}
 item = bpy.context.object

@@ -94,6 +94,7 @@ class _Evaluated:
         triangles, polygons, places, self.parts, face_parts = [], [], [], [], []
         self._uv_names, uv_values = [], {}
         vertices = faces = 0
+        all_loops = []
         for item in items:
             evaluated = item.evaluated_get(graph)
             mesh = evaluated.to_mesh()
@@ -102,6 +103,7 @@ class _Evaluated:
             self.parts += [tvg.Part(object=item.name, material=name) for name in names]
             loops = np.empty(len(mesh.loops), dtype=np.int64)
             mesh.loops.foreach_get("vertex_index", loops)
+            all_loops.append(loops)
             layer = mesh.uv_layers.active
             uv = np.zeros((len(loops), 2), dtype=np.float32)
             if layer is not None:
@@ -122,6 +124,7 @@ class _Evaluated:
         if not places:
             raise ValueError("the selected meshes have no face")
         self._vertices = vertices
+        self._loops = all_loops
         self.triangles = np.array([numbers for numbers, _ in places], dtype=np.uint32)
         self._corner_uvs = np.array([values for _, values in places], dtype=np.float32)
         self.polygons = np.array(polygons, dtype=np.uint32).reshape(-1, 2)
@@ -139,9 +142,17 @@ class _Evaluated:
         """Of all vertices in a frame, in the world's space, float32 [vertex, 3]."""
         graph = context.evaluated_depsgraph_get()
         rows = []
-        for item in self._items:
+        for item, first_loops in zip(self._items, self._loops):
             evaluated = item.evaluated_get(graph)
             mesh = evaluated.to_mesh()
+            loops = np.empty(len(mesh.loops), dtype=np.int64)
+            mesh.loops.foreach_get("vertex_index", loops)
+            if not np.array_equal(loops, first_loops):
+                evaluated.to_mesh_clear()
+                raise ValueError(
+                    f"{item.name} has other faces in frame {number} than in the first: a modifier changes the mesh from "
+                    "frame to frame; apply it, or export frames with one mesh"
+                )
             co = np.empty(3 * len(mesh.vertices), dtype=np.float32)
             mesh.vertices.foreach_get("co", co)
             world = np.array(evaluated.matrix_world, dtype=np.float64)

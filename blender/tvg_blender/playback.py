@@ -4,6 +4,8 @@ An imported object has two properties of its own, kept in .blend files: `tvg_fil
 file) and `tvg_start` (the frame of the scene that shows the first frame). Of each stream one clip is open, and one
 frame is held.
 """
+import zlib
+
 import bpy
 import numpy as np
 import tvg
@@ -19,7 +21,7 @@ _broken = set()  # paths that were complained of
 def clip_of(path):
     """The open clip of a file."""
     if path not in _clips:
-        _clips[path] = tvg.open(path)
+        _clips[path] = tvg.open(path, on_damage=lambda damage: print(f"TVG: {path}: {damage}"))
     return _clips[path]
 
 
@@ -112,7 +114,7 @@ def show(item, scene_frame):
 
 def _mark(mesh):
     """Tells meshes apart that have as many vertices."""
-    return f"{len(mesh.faces)}:{hash(mesh.faces.tobytes()) & 0xFFFFFFFF}"
+    return f"{len(mesh.faces)}:{zlib.crc32(mesh.faces.tobytes())}"
 
 
 @persistent
