@@ -1,6 +1,7 @@
 #include "encoder/live/stream_output.hpp"
 
 #include "tool/atomic_file.hpp"
+#include "tool/remote_stream.hpp"
 #ifdef TVG_HAS_PLAYER
 #include "encoder/live/http_upload.hpp"
 #else
@@ -29,7 +30,7 @@ class FileOutput final : public StreamOutput {
 }  // namespace
 
 std::unique_ptr<StreamOutput> open_stream_output(const std::string& target, bool live) {
-  if (target.starts_with("http://") || target.starts_with("https://")) {
+  if (is_address(target)) {
 #ifdef TVG_HAS_PLAYER
     return std::make_unique<HttpUpload>(target);
 #else

@@ -2,6 +2,7 @@
 #include "player/playback/http_input.hpp"
 #include "player/playback/pipe_input.hpp"
 #include "player/playback/stream_input.hpp"
+#include "tool/remote_stream.hpp"
 #include "tool/tool_error.hpp"
 
 #include <cerrno>
@@ -20,7 +21,7 @@ constexpr std::uint64_t kLittleAhead = std::uint64_t{1} << 18;
 }  // namespace
 
 std::unique_ptr<StreamInput> open_stream_input(const std::string& location, bool leaves_out) {
-  if (location.starts_with("http://") || location.starts_with("https://")) {
+  if (cli::is_address(location)) {
     HttpOptions options;
     if (leaves_out) options.read_ahead = kLittleAhead;
     return std::make_unique<HttpInput>(location, options);
