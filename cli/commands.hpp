@@ -13,6 +13,7 @@ void add_encode_command(CLI::App& tool);
 void add_join_command(CLI::App& tool);
 void add_ladder_command(CLI::App& tool);
 void add_measure_command(CLI::App& tool);
+void add_plan_command(CLI::App& tool);
 void add_simplify_command(CLI::App& tool);
 
 // Commands that read streams: decoder/.

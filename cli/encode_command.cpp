@@ -1,5 +1,6 @@
 #include "cli/commands.hpp"
 #include "cli/encode_job.hpp"
+#include "cli/part_job.hpp"
 #include "encoder/live/live_encoding.hpp"
 #include "encoder/live/stream_output.hpp"
 #include "tool/option_values.hpp"
@@ -9,9 +10,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 namespace tvg::cli {
 
@@ -23,6 +26,8 @@ struct EncodeCommandArguments : EncodeArguments {
   std::string output;
   bool loop = false;
   bool json = false;
+  std::string plan;
+  std::optional<std::uint32_t> part;
 };
 
 /// How the frames come: a pipe's when they come, others at their rate.
@@ -93,6 +98,35 @@ void run_encode(const EncodeCommandArguments& arguments) {
   print_encode_report(arguments.output == "-" ? "standard output" : arguments.output, report);
 }
 
+/// Part of what was planned: all else is said by the plan.
+void run_planned(const EncodeCommandArguments& arguments, const CLI::App& command) {
+  const std::array own = {"--plan", "--part", "--output", "--threads", "--quiet", "--json", "--force"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name =
+        option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames()[0];
+    if (option->count() == 0 || std::find(own.begin(), own.end(), name) != own.end()) continue;
+    throw ToolError(
+        ExitStatus::kUsage,
+        fmt::format("{}: not with --plan, in which all is said of inputs and how they are encoded", name));
+  }
+  PartArguments parts{arguments.plan, arguments.part, arguments.output, arguments.threads,
+                      false,          arguments.json, arguments.quiet};
+  parts.again = command.count("--force") > 0;
+  run_parts(parts);
+}
+
+void add_plan_options(CLI::App& command, EncodeCommandArguments& arguments) {
+  auto* plan = command.add_option(
+      "--plan", arguments.plan,
+      "instead of inputs: encode what tvg plan has planned, and with it how; parts that are there and whole "
+      "are not made again (but with --force)");
+  command
+      .add_option("--part", arguments.part,
+                  "with --plan: this part alone, from 1 on (default: all, one after the other)")
+      ->needs(plan)
+      ->check(CLI::Range(1u, 1000000u));
+}
+
 /// What the head says of meshes to come, where the input cannot be looked through before.
 void add_mesh_bounds(CLI::App& command, EncodeArguments& arguments) {
   command
@@ -122,6 +156,8 @@ void add_encode_command(CLI::App& tool) {
                      "the stream to write; - for standard output; an http or https URL for an upload by PUT "
                      "(default: named after the first input, beside it)");
   add_mesh_bounds(command, *arguments);
+  add_plan_options(command, *arguments);
+  command.get_option("input")->required(false);  // for they may be planned
   command.add_flag("--json", arguments->json, "print the report as JSON on standard output");
   auto* live =
       command
@@ -131,7 +167,9 @@ void add_encode_command(CLI::App& tool) {
           ->excludes("--threads");
   command.add_flag("--loop", arguments->loop, "with --live: begin the file again at its end, until stopped")
       ->needs(live);
-  command.callback([arguments] {
+  command.callback([arguments, &command] {
+    if (!arguments->plan.empty()) return run_planned(*arguments, command);
+    if (arguments->inputs.empty()) throw CLI::RequiredError("input");
     if (arguments->output.empty()) arguments->output = default_output(arguments->inputs.front(), ".tvg");
     run_encode(*arguments);
   });

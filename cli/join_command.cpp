@@ -1,10 +1,9 @@
 #include "cli/commands.hpp"
-#include "encoder/importers/input_file.hpp"
+#include "cli/part_job.hpp"
 #include "tool/atomic_file.hpp"
 #include "tool/input_files.hpp"
 #include "tool/option_values.hpp"
 #include "tool/progress.hpp"
-#include "tool/remote_stream.hpp"
 #include "tool/tool_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <sys/resource.h>
+#include <utility>
 
 #include <tvg/join.hpp>
 
@@ -23,6 +23,7 @@ struct JoinArguments {
   std::vector<std::string> inputs;
   std::string output;
   std::string frames;
+  std::string plan;
   bool quiet = false;
 };
 
@@ -34,20 +35,13 @@ void allow_many_open_files() {
   static_cast<void>(setrlimit(RLIMIT_NOFILE, &limit));
 }
 
-JoinInput open_input(const std::string& path) {
-  if (is_address(path)) {
-    const std::shared_ptr<RemoteStream> remote = open_remote_stream(path);
-    return {remote->name(),
-            [remote, at = std::uint64_t{0}](std::span<std::uint8_t> bytes) mutable -> Result<std::size_t> {
-              const std::size_t count = remote->read(at, bytes);
-              at += count;
-              return count;
-            }};
-  }
-  auto file = std::make_shared<InputFile>(path);
-  return {file->name(), [file](std::span<std::uint8_t> bytes) -> Result<std::size_t> {
-            return file->read(bytes.data(), bytes.size());
-          }};
+/// With the parts and, unless it was named, the output of a plan.
+JoinArguments with_planned(JoinArguments arguments) {
+  if (arguments.plan.empty()) return arguments;
+  PlannedJoin planned = planned_join(arguments.plan);
+  arguments.inputs = std::move(planned.inputs);
+  if (arguments.output.empty()) arguments.output = std::move(planned.output);
+  return arguments;
 }
 
 void run_join(const JoinArguments& arguments) {
@@ -64,7 +58,7 @@ void run_join(const JoinArguments& arguments) {
   files.check_output(arguments.output);
   allow_many_open_files();
   std::vector<JoinInput> inputs;
-  for (const std::string& path : arguments.inputs) inputs.push_back(open_input(path));
+  for (const std::string& path : arguments.inputs) inputs.push_back(open_join_input(path));
 
   AtomicFile file(arguments.output);
   const auto sink = [&file](std::span<const std::uint8_t> bytes) {
@@ -95,16 +89,24 @@ void add_join_command(CLI::App& tool) {
       "join",
       "Make one .tvg of several, or cut one, without encoding anew. GOPs are copied byte for byte, whatever "
       "mesh, lattice or options they were made with.");
-  command.add_option("input", arguments->inputs, "the streams in their order; - for standard input")
-      ->required();
-  command.add_option("-o,--output", arguments->output, "the stream to write; - for standard output")
-      ->required();
+  auto* inputs =
+      command.add_option("input", arguments->inputs, "the streams in their order; - for standard input");
+  command.add_option("-o,--output", arguments->output,
+                     "the stream to write; - for standard output (default: with --plan, as that names it)");
+  command
+      .add_option("--plan", arguments->plan,
+                  "instead of inputs: the parts that tvg plan has planned; all have to be there")
+      ->excludes(inputs);
   command.add_option(
       "--frames", arguments->frames,
       "keep frames A-B only, counted from 0 over all inputs; they must begin and end with a GOP "
       "(tvg info shows the GOPs)");
   command.add_flag("-q,--quiet", arguments->quiet, "print errors only");
-  command.callback([arguments] { run_join(*arguments); });
+  command.callback([arguments] {
+    if (arguments->plan.empty() && arguments->inputs.empty()) throw CLI::RequiredError("input");
+    if (arguments->plan.empty() && arguments->output.empty()) throw CLI::RequiredError("--output");
+    run_join(with_planned(*arguments));
+  });
 }
 
 }  // namespace tvg::cli

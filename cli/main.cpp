@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   add_compare_command(tool);
   add_measure_command(tool);
   add_simplify_command(tool);
+  add_plan_command(tool);
   add_join_command(tool);
   add_ladder_command(tool);
   add_page_command(tool);

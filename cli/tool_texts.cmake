@@ -1,6 +1,6 @@
 # The tool's manual pages (compressed, as Debian has them) and completions, made from its own help and installed with it.
 find_program(TVG_GZIP gzip)
-set(commands encode decode info verify compare measure simplify join ladder page help)
+set(commands encode decode info verify compare measure simplify plan join ladder page help)
 if(TVG_BUILD_PLAYER)
   list(APPEND commands play render serve)
 endif()

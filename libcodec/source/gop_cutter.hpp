@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <tvg/types.hpp>
@@ -26,8 +27,14 @@ struct GopContent {
 /// Cuts the frames of one mesh into GOPs. It takes frames that were checked.
 class GopCutter {
  public:
-  /// `low_delay`: as Importance has it.
-  GopCutter(std::uint32_t gop_frames, bool low_delay) : gop_frames_(gop_frames), low_delay_(low_delay) {}
+  /// `low_delay`: as Importance has it. `frames_before`, whole GOPs, were cut elsewhere; `gop_before` is the
+  /// last of them, if it is to mark the next.
+  GopCutter(std::uint32_t gop_frames, bool low_delay, std::uint64_t frames_before = 0,
+            std::shared_ptr<const GopFrames> gop_before = {})
+      : gop_frames_(gop_frames),
+        low_delay_(low_delay),
+        frames_(frames_before),
+        previous_(std::move(gop_before)) {}
 
   /// Takes the next frame, the values of its animated attributes and, where the measure uses them, its
   /// joints; gives the GOP that it completes.
@@ -36,12 +43,13 @@ class GopCutter {
   /// The GOP of the frames that are left, if any.
   std::optional<GopContent> flush();
 
+  /// Frames taken, those before among them.
   std::uint64_t frames() const { return frames_; }
 
  private:
   std::uint32_t gop_frames_;
   bool low_delay_;
-  std::uint64_t frames_ = 0;
+  std::uint64_t frames_;
   std::shared_ptr<GopFrames> present_;
   std::shared_ptr<const GopFrames> previous_;
 };

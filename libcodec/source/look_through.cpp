@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <deque>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace tvg {
@@ -66,14 +67,12 @@ class MeshHash {
 /// The meshes of a source in the order in which they come.
 class MeshesMet {
  public:
-  void add(const FrameSource& source) {
-    const std::uint64_t hash = MeshHash(source.mesh(), source.properties()).value();
-    const auto [entry, is_new] = numbers_.try_emplace(hash, sizes_.size());
-    if (is_new) sizes_.push_back(std::uint64_t{source.mesh().vertex_count} + source.mesh().faces.size());
+  void add(const SourceStretch& stretch, std::size_t faces) {
+    const auto [entry, is_new] = numbers_.try_emplace(stretch.mesh_hash, sizes_.size());
+    if (is_new) sizes_.push_back(std::uint64_t{stretch.vertices} + faces);
     order_.push_back(entry->second);
   }
 
-  std::uint64_t stretches() const { return order_.size(); }
   bool any_returns() const { return sizes_.size() < order_.size(); }
 
   /// The fewest meshes to keep with which as little as can be is sent again.
@@ -111,38 +110,45 @@ class MeshesMet {
 
 }  // namespace
 
-Result<std::optional<SourceFacts>> look_through(FrameSource& source) {
-  if (!source.rewind()) return std::optional<SourceFacts>();
-  SourceFacts facts;
+std::uint64_t mesh_hash(const FrameSource& source) {
+  return MeshHash(source.mesh(), source.properties()).value();
+}
+
+Result<std::optional<EncodePlan>> look_through(FrameSource& source) {
+  if (!source.rewind()) return std::optional<EncodePlan>();
+  EncodePlan plan;
+  plan.box.emplace();
   MeshesMet meshes;
   FramePositions frame;
   for (SourceStep step = SourceStep::kMesh;;) {
     if (step == SourceStep::kMesh) {
-      if (Status status = check_mesh(source.mesh()); !status.ok()) return status.error();
-      meshes.add(source);
-      const std::uint64_t vertices = source.mesh().vertex_count, faces = source.mesh().faces.size();
-      facts.vertices = std::max(facts.vertices, source.mesh().vertex_count);
-      facts.property_bytes =
-          std::max(facts.property_bytes, property_bytes(source.properties(), vertices, faces));
-      facts.animated_frame_bytes =
-          std::max(facts.animated_frame_bytes, animated_frame_bytes(source.properties(), vertices, faces));
-      facts.faces = std::max(facts.faces, static_cast<std::uint32_t>(source.mesh().faces.size()));
+      const Mesh& mesh = source.mesh();
+      if (Status status = check_mesh(mesh); !status.ok()) return status.error();
+      plan.stretches.push_back({plan.frames, 0, mesh.vertex_count, mesh_hash(source), plan.frames});
+      meshes.add(plan.stretches.back(), mesh.faces.size());
+      const auto faces = static_cast<std::uint32_t>(mesh.faces.size());
+      plan.vertices = std::max(plan.vertices, mesh.vertex_count);
+      plan.faces = std::max(plan.faces, faces);
+      plan.property_bytes =
+          std::max(plan.property_bytes, property_bytes(source.properties(), mesh.vertex_count, faces));
+      plan.animated_frame_bytes = std::max(
+          plan.animated_frame_bytes, animated_frame_bytes(source.properties(), mesh.vertex_count, faces));
     } else {
-      if (Status status = check_frame(frame, facts.frames); !status.ok()) return status.error();
-      facts.box.extend(frame);
-      ++facts.frames;
+      if (Status status = check_frame(frame, plan.frames); !status.ok()) return status.error();
+      plan.box->extend(frame);
+      ++plan.frames;
+      ++plan.stretches.back().frames;
     }
     const Result<SourceStep> next = read_step(source, frame);
     if (!next) return next.error();
     if (*next == SourceStep::kEnd) break;
     step = *next;
   }
-  if (facts.frames == 0) return invalid_input("the sequence has no frames");
+  if (plan.frames == 0) return invalid_input("the sequence has no frames");
   if (!source.rewind()) return Error{ErrorCode::kIo, "the input cannot be read a second time"};
-  facts.stretches = meshes.stretches();
-  facts.meshes = meshes.worth_keeping();
-  facts.mesh_returns = meshes.any_returns();
-  return std::optional(facts);
+  plan.meshes = meshes.worth_keeping();
+  plan.mesh_returns = meshes.any_returns();
+  return std::optional(std::move(plan));
 }
 
 }  // namespace tvg

@@ -3,10 +3,11 @@
 #include "container/metadata.hpp"
 #include "container/stream_writer.hpp"
 #include "streams/join_input.hpp"
+#include "streams/joined_data.hpp"
 
 #include <deque>
-#include <map>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include <tvg/join.hpp>
@@ -41,7 +42,10 @@ class Joiner {
       readers_.emplace_back(std::move(input), options_.limits);
       if (Status status = readers_.back().begin(); !status.ok()) return status.error();
     }
-    whole_input_ = readers_.size() == 1 && !options_.frames;
+    data_.emplace(readers_.size(), !options_.frames);
+    for (JoinInputReader& reader : readers_) data_->add_start(reader.name(), reader.take_data());
+    if (Status status = options_.frames ? Status() : data_->check_parts(); !status.ok())
+      return status.error();
     if (Status status = write_start(); !status.ok()) return status.error();
     for (; !readers_.empty() && !done(); readers_.pop_front()) {
       if (Status status = add(readers_.front()); !status.ok()) return status.error();
@@ -71,28 +75,12 @@ class Joiner {
                    "§4.2"};
     }
     if (Status status = writer_.write_start(limits, metadata); !status.ok()) return status;
-    for (JoinInputReader& reader : readers_) {
-      if (Status status = write_data(reader); !status.ok()) return status;
-    }
-    return {};
+    return write_chunks(data_->start_chunks());
   }
 
-  /// Passes on the data that were read of an input since this was called last.
-  Status write_data(JoinInputReader& reader) {
-    for (const JoinInputReader::DataChunk& chunk : reader.take_data()) {
-      const bool of_frames = chunk.name == "times" || chunk.name == "skeleton/positions";
-      if (of_frames && !whole_input_) {
-        report_.notes.push_back(reader.name() + ": data \"" + chunk.name +
-                                "\" are left out: they belong to all frames of one input");
-        continue;
-      }
-      const auto [known, is_new] = data_ids_.emplace(chunk.name, chunk.id);
-      if (!is_new && known->second != chunk.id) {
-        report_.notes.push_back(reader.name() + ": its data \"" + chunk.name +
-                                "\" are left out; those of an earlier input are kept");
-      }
-      if (!is_new) continue;
-      if (Status status = writer_.write(chunk.bytes); !status.ok()) return status;
+  Status write_chunks(const std::vector<std::vector<std::uint8_t>>& chunks) {
+    for (const std::vector<std::uint8_t>& chunk : chunks) {
+      if (Status status = writer_.write(chunk); !status.ok()) return status;
     }
     return {};
   }
@@ -133,7 +121,9 @@ class Joiner {
       report_.notes.push_back(reader.name() + ": chunks of unknown kinds are left out: " +
                               std::to_string(reader.chunks_passed_over()));
     }
-    return write_data(reader);
+    Status status = write_chunks(data_->later_chunks(reader.name(), reader.take_data()));
+    for (std::string& note : data_->take_notes()) report_.notes.push_back(std::move(note));
+    return status;
   }
 
   /// Whether a GOP is to be copied; an error where a border of the frames asked for lies inside it.
@@ -168,9 +158,8 @@ class Joiner {
   ByteSink writer_sink_;  ///< appends to what the writer has written
   const EncodeProgress& progress_;
   std::deque<JoinInputReader> readers_;
-  bool whole_input_ = false;                       ///< the result has the frames of one input, all of them
-  std::map<std::string, std::uint32_t> data_ids_;  ///< of the data written, by name
-  std::uint64_t position_ = 0;                     ///< of the next frame over all inputs
+  std::optional<JoinedData> data_;
+  std::uint64_t position_ = 0;  ///< of the next frame over all inputs
   JoinReport report_;
 };
 

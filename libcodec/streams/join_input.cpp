@@ -1,9 +1,13 @@
 #include "streams/join_input.hpp"
 
 #include "base/stream_error.hpp"
+#include "container/frame_data.hpp"
 #include "container/stream_writer.hpp"
 
 #include <utility>
+
+#include <tvg/data.hpp>
+#include <tvg/parts.hpp>
 
 namespace tvg {
 
@@ -64,7 +68,10 @@ void JoinInputReader::use(ChunkReader::Event event) {
       metadata_ = reader_.take_metadata();
       break;
     case ChunkReader::Event::kData:
-      data_.push_back({reader_.data_id(), std::string(reader_.data().name), chunk_with(raw)});
+      data_.push_back({reader_.data_id(), std::string(reader_.data().name), chunk_with(raw), {}});
+      if (is_frame_data(reader_.data().name) || reader_.data().name == kPartData) {
+        if (Result<NamedData> data = unpack_data(reader_.data())) data_.back().unpacked = std::move(*data);
+      }
       break;
     case ChunkReader::Event::kMesh:
     case ChunkReader::Event::kPlan:

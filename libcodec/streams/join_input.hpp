@@ -2,6 +2,7 @@
 #include "container/chunk_reader.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ class JoinInputReader {
     std::uint32_t id = 0;  ///< payload checksum
     std::string name;
     std::vector<std::uint8_t> bytes;
+    /// Where join() looks into them: what is said of frames or of parts, unless it cannot be unpacked.
+    std::optional<NamedData> unpacked;
   };
   /// Hands out the data that were read since it was asked last.
   std::vector<DataChunk> take_data() { return std::exchange(data_, {}); }

@@ -90,6 +90,7 @@ struct MeshProperties {
 ///   least significant byte first, [frame][joint][xyz].
 /// - "times": float64, least significant byte first: when each of the stream's frames is, in seconds, where
 ///   frames do not follow each other at an even rate.
+/// - "tvg/part": which part of a whole that was encoded in parts the stream is (tvg/parts.hpp).
 struct NamedData {
   std::string name;  ///< 1 to 1024 bytes, as is_metadata_text()
   std::vector<std::uint8_t> bytes;
