@@ -50,8 +50,13 @@ void run_plan(const PlanArguments& arguments, const CLI::App& command) {
   EncodeOptions options = encode_options(arguments);
   files_of(arguments, arguments.measure.weights()).check_output(arguments.output);
   const OpenedInput opened = open_for_encoding(arguments, options);
-  Result<EncodePlan> seen = plan_encoding(*opened.source, options);
+  ProgressBar bar("reading", arguments.quiet);
+  const auto progress = [&bar](std::uint64_t frames, std::optional<std::uint64_t> total) {
+    bar.update(frames, total);
+  };
+  Result<EncodePlan> seen = plan_encoding(*opened.source, options, progress);
   if (!seen) throw tool_error(input_names(arguments), seen.error());
+  bar.clear();
   PlanFile plan;
   plan.options = typed_options(command, arguments.output);
   plan.levels = options.levels;

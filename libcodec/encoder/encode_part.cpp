@@ -207,9 +207,9 @@ Status check_part(const EncodePlan& plan, const FrameRange& part) {
   return {};
 }
 
-Result<EncodePlan> look(FrameSource& source, const EncodeOptions& options) {
+Result<EncodePlan> look(FrameSource& source, const EncodeOptions& options, const EncodeProgress& progress) {
   if (needs_plan(source, options) || !source.frame_count()) {
-    Result<std::optional<EncodePlan>> seen = look_through(source);
+    Result<std::optional<EncodePlan>> seen = look_through(source, progress);
     if (!seen) return seen.error();
     if (*seen) return std::move(**seen);
   } else if (source.rewind()) {
@@ -237,9 +237,10 @@ Result<SettledOptions> settle(const FrameSource& source, const EncodeOptions& op
 
 }  // namespace
 
-Result<EncodePlan> plan_encoding(FrameSource& source, const EncodeOptions& options) {
+Result<EncodePlan> plan_encoding(FrameSource& source, const EncodeOptions& options,
+                                 const EncodeProgress& progress) {
   if (Status status = check_encoding(source, options); !status.ok()) return status.error();
-  Result<EncodePlan> plan = look(source, options);
+  Result<EncodePlan> plan = look(source, options, progress);
   if (!plan) return plan;
   const Result<SettledOptions> settled = settle(source, options, *plan);
   if (!settled) return settled.error();

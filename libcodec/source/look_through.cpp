@@ -114,7 +114,7 @@ std::uint64_t mesh_hash(const FrameSource& source) {
   return MeshHash(source.mesh(), source.properties()).value();
 }
 
-Result<std::optional<EncodePlan>> look_through(FrameSource& source) {
+Result<std::optional<EncodePlan>> look_through(FrameSource& source, const EncodeProgress& progress) {
   if (!source.rewind()) return std::optional<EncodePlan>();
   EncodePlan plan;
   plan.box.emplace();
@@ -138,6 +138,7 @@ Result<std::optional<EncodePlan>> look_through(FrameSource& source) {
       plan.box->extend(frame);
       ++plan.frames;
       ++plan.stretches.back().frames;
+      if (progress) progress(plan.frames, source.frame_count());
     }
     const Result<SourceStep> next = read_step(source, frame);
     if (!next) return next.error();

@@ -44,8 +44,10 @@ struct EncodePlan {
 
 /// Looks at a source, as encode() with these options does: reads it once from its beginning to its end where
 /// the box or the meshes to come are asked for, and leaves it at its first frame. kInvalidArgument where it
-/// can be read only once, or does not know how long it is; otherwise fails as encode() does.
-Result<EncodePlan> plan_encoding(FrameSource& source, const EncodeOptions& options);
+/// can be read only once, or does not know how long it is; otherwise fails as encode() does. `progress` is
+/// told of frames read.
+Result<EncodePlan> plan_encoding(FrameSource& source, const EncodeOptions& options,
+                                 const EncodeProgress& progress = {});
 
 /// Cuts a sequence into at most `parts` (at least 1) parts with about as many vertices, at the borders of
 /// what is encoded together. There may be fewer: not one is empty.
