@@ -18,7 +18,7 @@ namespace tvg {
 
 namespace {
 
-std::string text(const FrameRange& frames) {
+std::string range_text(const FrameRange& frames) {
   return std::to_string(frames.first) + "-" + std::to_string(frames.last);
 }
 
@@ -199,10 +199,10 @@ bool is_border(const EncodePlan& plan, std::uint64_t frame) {
 
 Status check_part(const EncodePlan& plan, const FrameRange& part) {
   if (part.first > part.last || part.last >= plan.frames)
-    return invalid_argument("frames " + text(part) + " are no part of the " + std::to_string(plan.frames) +
-                            " frames that were planned");
+    return invalid_argument("frames " + range_text(part) + " are no part of the " +
+                            std::to_string(plan.frames) + " frames that were planned");
   if (!is_border(plan, part.first) || !is_border(plan, part.last + 1))
-    return invalid_argument("frames " + text(part) +
+    return invalid_argument("frames " + range_text(part) +
                             " are no part: it begins or ends within what is encoded together");
   return {};
 }

@@ -1,3 +1,4 @@
+#include "base/errors.hpp"
 #include "container/chunk.hpp"
 #include "container/head.hpp"
 #include "container/metadata.hpp"
@@ -16,11 +17,7 @@ namespace tvg {
 
 namespace {
 
-Error invalid_argument(std::string message) {
-  return {ErrorCode::kInvalidArgument, std::move(message), {}, {}, ""};
-}
-
-std::string text(const FrameRange& frames) {
+std::string frames_text(const FrameRange& frames) {
   return std::to_string(frames.first) + "-" + std::to_string(frames.last);
 }
 
@@ -35,7 +32,7 @@ class Joiner {
   Result<JoinReport> run(std::vector<JoinInput> inputs) {
     if (inputs.empty()) return invalid_argument("there is nothing to join");
     if (options_.frames && options_.frames->first > options_.frames->last) {
-      return invalid_argument("frames " + text(*options_.frames) + ": the first comes after the last");
+      return invalid_argument("frames " + frames_text(*options_.frames) + ": the first comes after the last");
     }
     // All heads and metadata come before the first byte is written.
     for (JoinInput& input : inputs) {
@@ -51,8 +48,9 @@ class Joiner {
       if (Status status = add(readers_.front()); !status.ok()) return status.error();
     }
     if (options_.frames && !done()) {
-      return invalid_argument("frames " + text(*options_.frames) + " are asked for, but the input has " +
-                              (position_ == 0 ? "none" : "the frames " + text({0, position_ - 1})));
+      return invalid_argument("frames " + frames_text(*options_.frames) +
+                              " are asked for, but the input has " +
+                              (position_ == 0 ? "none" : "the frames " + frames_text({0, position_ - 1})));
     }
     if (report_.frames == 0) return Error{ErrorCode::kInvalidInput, "the inputs have no frames", {}, {}, ""};
     if (Status status = writer_.write_end(); !status.ok()) return status.error();
@@ -130,7 +128,8 @@ class Joiner {
   Result<bool> is_wanted(const FrameRange& gop, const std::string& name) const {
     if (!options_.frames) return true;
     const FrameRange& wanted = *options_.frames;
-    const std::string where = " lies inside the GOP of frames " + text(gop) + " (" + name + "): a cut can ";
+    const std::string where =
+        " lies inside the GOP of frames " + frames_text(gop) + " (" + name + "): a cut can ";
     if (wanted.first > gop.first && wanted.first <= gop.last) {
       return invalid_argument("frame " + std::to_string(wanted.first) + where + "begin at frame " +
                               std::to_string(gop.first) + ", or at " + std::to_string(gop.last + 1) +

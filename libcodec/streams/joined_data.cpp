@@ -14,7 +14,7 @@ namespace tvg {
 
 namespace {
 
-std::string text(const PartMark& mark) {
+std::string part_text(const PartMark& mark) {
   return "part " + std::to_string(mark.number) + " of " + std::to_string(mark.count);
 }
 
@@ -53,14 +53,14 @@ Status JoinedData::check_parts() const {
       continue;
     }
     if (before && due <= before->count && mark->plan != before->plan)
-      return invalid_argument(start.name + " is " + text(*mark) +
+      return invalid_argument(start.name + " is " + part_text(*mark) +
                               " by another plan than the parts before it");
     if (before && due > before->count) due = 1;  // another whole begins
     if (mark->number > due)
       return invalid_argument(text_of_missing(due, mark->number - 1, mark->count) + ": " + start.name +
-                              " is " + text(*mark));
+                              " is " + part_text(*mark));
     if (mark->number < due)
-      return invalid_argument(start.name + " is " + text(*mark) + ", where part " + std::to_string(due) +
+      return invalid_argument(start.name + " is " + part_text(*mark) + ", where part " + std::to_string(due) +
                               " is due: name the parts in their order, each once");
     before = mark;
     ++due;
