@@ -69,7 +69,8 @@ cloth = toolbox.make_cloth()
 cloth.modifiers.new("Build", "BUILD").frame_start = 100
 files = sorted(os.listdir(toolbox.folder))
 assert toolbox.refuses(bpy.ops.export_scene.tvg, "no face", filepath=path)
-assert toolbox.refuses(bpy.ops.export_scene.tvg, "no-such-folder", filepath=os.path.join(toolbox.folder, "no-such-folder/a.tvg"))
+nowhere = os.path.join(toolbox.folder, "no-such-folder", "a.tvg")
+assert toolbox.refuses(bpy.ops.export_scene.tvg, "no-such-folder", filepath=nowhere)
 bpy.ops.object.select_all(action="DESELECT")
 assert toolbox.refuses(bpy.ops.export_scene.tvg, "Select", filepath=path)
 assert sorted(os.listdir(toolbox.folder)) == files and open(path, "rb").read() == before

@@ -75,7 +75,7 @@ class Evaluation:
 
 
 class _Faces:
-    """The polygons of one of Blender's meshes: of each its first loop, its corners and its material; of each loop its vertex."""
+    """Polygons of one of Blender's meshes: of each its first loop, corners and material; of each loop its vertex."""
 
     def __init__(self, mesh):
         self.loops = _numbers(mesh.loops, "vertex_index")

@@ -23,22 +23,24 @@ from page import steps_of
 HERE = Path(__file__).resolve().parent
 BUDGET = 300  # seconds
 SKIPPED = 77
+NETWORK = ("http_proxy", "https_proxy", "no_proxy", "node_extra_ca_certs", "ssl_cert_file", "ssl_cert_dir")
 SERVER = "http.server"  # the command that goes on until the page is closed
 
 
 class Section(NamedTuple):
     heading: str
-    needs: Tuple[str, ...]
+    needs: Tuple[str, ...]  # programs
+    probe: str  # a command that fails where something else is missing
     outcome: Callable[[Path, str], None]
 
 
 SECTIONS = {
-    "shell": Section("In the shell", (), outcomes.shell),
-    "python": Section("Python", ("/usr/bin/python3",), outcomes.python),
-    "blender": Section("Blender", ("blender",), outcomes.blender),
-    "c": Section("C", ("cc", "pkg-config"), outcomes.c),
-    "cpp": Section("C++", ("c++", "cmake", "pkg-config"), outcomes.cpp),
-    "three": Section("three.js", ("node", "npm"), outcomes.three),
+    "shell": Section("In the shell", (), "true", outcomes.shell),
+    "python": Section("Python", (), "python3 -c 'import setuptools, ensurepip, numpy, pip, wheel'", outcomes.python),
+    "blender": Section("Blender", ("blender",), "/usr/bin/python3 -c 'import numpy'", outcomes.blender),
+    "c": Section("C", ("cc", "pkg-config"), "true", outcomes.c),
+    "cpp": Section("C++", ("c++", "cmake", "pkg-config"), "true", outcomes.cpp),
+    "three": Section("three.js", ("node", "npm"), "npm view three version", outcomes.three),
 }
 
 
@@ -51,7 +53,8 @@ def stage(folder: Path, project: Path, build: Path) -> Path:
     """What the page calls $TVG: the project's folder with the builds where the page has them, and nothing written to it."""
     staged = folder / "project"
     (staged / "build").mkdir(parents=True)
-    shutil.copytree(project / "python", staged / "python", ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
+    made = shutil.ignore_patterns("__pycache__", "build", "*.egg-info")
+    shutil.copytree(project / "python", staged / "python", ignore=made)
     shutil.copyfile(project / "LICENSE", staged / "LICENSE")
     for name, target in (("web", project / "web"), ("build/release", build), ("build/wasm", project / "build/wasm")):
         (staged / name).symlink_to(target)
@@ -60,7 +63,7 @@ def stage(folder: Path, project: Path, build: Path) -> Path:
 
 def environment(home: Path, project: Path, prefix: str) -> Dict[str, str]:
     """A fresh user's; with a prefix also what an installation under /usr has by itself."""
-    kept = {key: value for key, value in os.environ.items() if key.lower() in ("http_proxy", "https_proxy", "no_proxy")}
+    kept = {key: value for key, value in os.environ.items() if key.lower() in NETWORK}
     path = "/usr/local/bin:/usr/bin:/bin"
     for name in ("node", "npm"):  # which may come from elsewhere
         found = shutil.which(name)
@@ -107,7 +110,8 @@ def open_page(command: str, folder: Path, env: Dict[str, str]) -> None:
                 if server.poll() is not None:
                     sys.exit(f"'{command}' ended by itself")
                 time.sleep(0.1)
-        seen = subprocess.run(["node", HERE / "plays.mjs", address, folder / "played.png"], env={**os.environ, **env}, timeout=120)
+        look = ["node", HERE / "plays.mjs", address, folder / "played.png"]
+        seen = subprocess.run(look, env={**os.environ, **env}, timeout=120)
     finally:
         os.killpg(server.pid, signal.SIGTERM)
         server.wait()
@@ -130,6 +134,9 @@ def run(name: str, project: Path, build: Path, prefix: str) -> None:
         home.mkdir()
         folder.mkdir()
         env = environment(home, stage(Path(scratch), project, build), prefix)
+        quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+        if subprocess.run(["sh", "-c", section.probe], env=env, check=False, **quiet).returncode != 0:
+            skip(f"this fails: {section.probe}")
         # Not the reader's first animation, so not a step of theirs.
         subprocess.run([build / "corpus/tvg_corpus", "hand", "-o", folder], check=True, stdout=subprocess.DEVNULL)
         start = time.monotonic()
