@@ -1,11 +1,12 @@
 """Run by Blender: what import makes of streams, and what it says of those that are broken or gone."""
 import os
 import shutil
+from types import SimpleNamespace
 
 import toolbox
 from toolbox import bpy, np, vertices_of
 import tvg
-from tvg_blender import playback
+from tvg_blender import panel, playback
 
 scene = bpy.context.scene
 toolbox.clear()
@@ -60,6 +61,34 @@ item = next(other for other in bpy.data.objects if other.get(playback.FILE) == "
 scene.frame_set(20)
 assert abs(height(item) - 1.9) < 1e-3 and playback.troubles(item) == (None, [])
 
+
+class Lines:
+    """A layout that keeps what a panel writes."""
+
+    def __init__(self):
+        self.texts = []
+
+    def row(self):
+        return self
+
+    def label(self, text, icon):
+        self.texts.append(text)
+
+    def prop(self, item, name, text):
+        assert item.path_resolve(name) is not None, name
+
+    def operator(self, _name):
+        pass
+
+
+def shown_by_panel(item):
+    lines = Lines()
+    panel.OBJECT_PT_tvg.draw(SimpleNamespace(layout=lines), SimpleNamespace(object=item))
+    return lines.texts
+
+
+assert shown_by_panel(item) == []
+
 # A damaged stream plays on, and the object knows where it is broken.
 stream = os.path.join(moved, "strip.tvg")
 whole = open(stream, "rb").read()
@@ -71,6 +100,7 @@ for number in range(1, 31):
     scene.frame_set(number)
 error, damages = playback.troubles(item)
 assert damages and len(damages[0]) > 10, damages
+assert shown_by_panel(item)[-len(damages) :] == damages
 scene.frame_set(2)
 assert playback.troubles(item)[0] is None and abs(height(item) - 0.1) < 1e-3
 
@@ -79,6 +109,7 @@ os.remove(stream)
 bpy.ops.tvg.reload()
 scene.frame_set(7)
 error, damages = playback.troubles(item)
+assert shown_by_panel(item) == [error]
 assert "strip.tvg" in error and abs(height(item) - 0.1) < 1e-3
 open(stream, "wb").write(whole)
 scene.frame_set(8)
