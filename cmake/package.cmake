@@ -31,7 +31,8 @@ set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "The C interface of TVG: encodes and decode
 geometry from memory.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libtvg-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libtvg${soname_version} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
+  "libtvg${soname_version} (= ${PROJECT_VERSION}), libopenmesh-dev (>= 9.0), libzstd-dev (>= 1.5)")
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "Headers, static libraries and the files by which CMake and pkg-config find
 TVG.")
 

@@ -19,9 +19,15 @@ if _brought.is_dir() and str(_brought) not in sys.path:
 
 import bpy  # noqa: E402
 
-from . import exporting, importing, playback  # noqa: E402
+from . import exporting, importing, panel, playback  # noqa: E402
 
-_CLASSES = (importing.IMPORT_SCENE_OT_tvg, exporting.EXPORT_SCENE_OT_tvg)
+_CLASSES = (
+    importing.IMPORT_SCENE_OT_tvg,
+    exporting.EXPORT_SCENE_OT_tvg,
+    exporting.TVG_OT_export_frames,
+    panel.TVG_OT_reload,
+    panel.OBJECT_PT_tvg,
+)
 
 
 def _import_entry(menu, _context):

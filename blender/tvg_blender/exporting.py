@@ -1,11 +1,15 @@
 """File > Export > TVG."""
+import time
 from fractions import Fraction
 
 import bpy
-import numpy as np
 import tvg
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper
+
+from .export_job import ExportJob
+
+_EXPECTED = (OSError, tvg.Error, ValueError)
 
 
 class EXPORT_SCENE_OT_tvg(bpy.types.Operator, ExportHelper):
@@ -24,144 +28,143 @@ class EXPORT_SCENE_OT_tvg(bpy.types.Operator, ExportHelper):
         ],
         default="elp",
     )
-    bits: IntProperty(name="Bits", description="Per coordinate of important vertices", default=11, min=1, max=24)
-    other_bits: IntProperty(name="Other bits", description="Per coordinate of other vertices", default=11, min=1, max=24)
+    bits: IntProperty(name="Bits", description="Per coordinate, of important vertices", default=11, min=1, max=24)
+    other_bits: IntProperty(
+        name="Other bits",
+        description="Per coordinate of vertices that are not important; 0: as many as of important ones",
+        default=0, min=0, max=24,
+    )
     important: FloatProperty(
-        name="Important", description="Share of vertices that count as important", default=35, min=0, max=100,
-        subtype="PERCENTAGE",
+        name="Important", description="Share of vertices that count as important, where others have fewer bits",
+        default=35, min=0, max=100, subtype="PERCENTAGE",
     )
     uvs: BoolProperty(name="UVs", default=True)
+
+    def draw(self, _context):
+        layout = self.layout
+        layout.use_property_split = True
+        for name in ("mode", "bits", "other_bits"):
+            layout.prop(self, name)
+        row = layout.row()
+        row.enabled = 0 < self.other_bits < self.bits
+        row.prop(self, "important")
+        layout.prop(self, "uvs")
 
     def execute(self, context):
         items = [item for item in context.selected_objects if item.type == "MESH"]
         if not items:
             self.report({"ERROR"}, "Select one mesh at least")
             return {"CANCELLED"}
-        scene = context.scene
-        shown = scene.frame_current
-        wm = context.window_manager
-        wm.progress_begin(0, scene.frame_end - scene.frame_start + 1)
+        path = bpy.path.abspath(self.filepath)
         try:
-            report = self._encode(context, items)
-        except (OSError, tvg.Error, ValueError) as error:
-            self.report({"ERROR"}, f"{self.filepath}: {error}")
+            options = self._options(context.scene)
+        except ValueError as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        if context.window is not None and not bpy.app.background:
+            # The dialogue's operator ends with the dialogue: what goes on is another.
+            TVG_OT_export_frames.job = ExportJob(context, items, path, options, self.uvs)
+            TVG_OT_export_frames.path = path
+            bpy.ops.tvg.export_frames("INVOKE_DEFAULT")
+            return {"FINISHED"}
+        return self._wait(context, ExportJob(context, items, path, options, self.uvs), path)
+
+    def _wait(self, context, job, path):
+        """Exports at one go, as there is no window to keep alive."""
+        wm = context.window_manager
+        wm.progress_begin(0, 1000)
+        try:
+            report = None
+            while report is None:
+                before = job.progress
+                report = job.step()
+                done, count, _ = job.progress
+                wm.progress_update(1000 * done // max(count, 1))
+                if report is None and job.progress == before:
+                    time.sleep(0.005)  # the encoder is at work
+        except _EXPECTED as error:
+            self.report({"ERROR"}, f"{path}: {error}")
             return {"CANCELLED"}
         finally:
             wm.progress_end()
-            scene.frame_set(shown)
-        self.report({"INFO"}, f"{self.filepath}: {report.frames} frames, {report.bytes} bytes")
+            job.restore()
+        self.report({"INFO"}, _summary(path, report))
         return {"FINISHED"}
 
-    def _encode(self, context, items):
-        scene = context.scene
-        scene.frame_set(scene.frame_start)
-        meshes = _Evaluated(context, items)
-        options = {}
-        if self.mode == "elp" and self.other_bits < self.bits:
+    def _options(self, scene):
+        """What tvg.encode() is asked for. ValueError where the settings contradict each other."""
+        options = {"mode": self.mode, "bits": self.bits, "metadata": {"up": "z"}}
+        options["fps"] = Fraction(scene.render.fps) / Fraction(scene.render.fps_base).limit_denominator(1001)
+        if self.other_bits > self.bits:
+            raise ValueError(f"Other bits are {self.other_bits}, more than the {self.bits} of important vertices")
+        two = 0 < self.other_bits < self.bits
+        if two:
             options["bits"] = (self.bits, self.other_bits)
             options["importance"] = tvg.Importance(share=self.important / 100)
-        else:
-            options["bits"] = self.bits
-        fps = Fraction(scene.render.fps) / Fraction(scene.render.fps_base).limit_denominator(1001)
-        return tvg.encode(
-            self._frames(context, meshes),
-            meshes.triangles,
-            self.filepath,
-            mode=self.mode,
-            fps=fps,
-            attributes=meshes.uvs() if self.uvs else None,
-            parts=meshes.parts,
-            face_parts=meshes.face_parts,
-            polygons=meshes.polygons,
-            metadata={"up": "z"},
-            **options,
-        )
-
-    def _frames(self, context, meshes):
-        scene = context.scene
-        for number in range(scene.frame_start, scene.frame_end + 1):
-            scene.frame_set(number)
-            context.window_manager.progress_update(number - scene.frame_start)
-            yield meshes.positions(context, number)
+        elif self.properties.is_property_set("important") and self.important != 35:
+            self.report({"WARNING"}, "Important has no effect: Other bits are not fewer than Bits")
+        return options
 
 
-class _Evaluated:
-    """What selected objects are at the first frame: all of them one mesh, a part for each object and material."""
+class TVG_OT_export_frames(bpy.types.Operator):
+    """Goes on with an export, a frame at a time; Esc cancels it"""
 
-    def __init__(self, context, items):
-        self._items = items
-        graph = context.evaluated_depsgraph_get()
-        triangles, polygons, places, self.parts, face_parts = [], [], [], [], []
-        self._uv_names, uv_values = [], {}
-        vertices = faces = 0
-        all_loops = []
-        for item in items:
-            evaluated = item.evaluated_get(graph)
-            mesh = evaluated.to_mesh()
-            first_part = len(self.parts)
-            names = [slot.material.name if slot.material else "" for slot in item.material_slots] or [""]
-            self.parts += [tvg.Part(object=item.name, material=name) for name in names]
-            loops = np.empty(len(mesh.loops), dtype=np.int64)
-            mesh.loops.foreach_get("vertex_index", loops)
-            all_loops.append(loops)
-            layer = mesh.uv_layers.active
-            uv = np.zeros((len(loops), 2), dtype=np.float32)
-            if layer is not None:
-                layer.data.foreach_get("uv", uv.ravel())
-                self._uv_names.append(layer.name)
-            for polygon in mesh.polygons:
-                start, count = polygon.loop_start, polygon.loop_total
-                if count > 3:
-                    polygons.append((faces, count))
-                for corner in range(1, count - 1):
-                    triangles.append([start, start + corner, start + corner + 1])
-                    face_parts.append(first_part + min(polygon.material_index, len(names) - 1))
-                    faces += 1
-            local = np.array(triangles[len(places) :], dtype=np.int64).reshape(-1, 3)
-            places += [(vertices + loops[corners], uv[corners]) for corners in local]
-            vertices += len(mesh.vertices)
-            evaluated.to_mesh_clear()
-        if not places:
-            raise ValueError("the selected meshes have no face")
-        self._vertices = vertices
-        self._loops = all_loops
-        self.triangles = np.array([numbers for numbers, _ in places], dtype=np.uint32)
-        self._corner_uvs = np.array([values for _, values in places], dtype=np.float32)
-        self.polygons = np.array(polygons, dtype=np.uint32).reshape(-1, 2)
-        self.face_parts = np.array(face_parts, dtype=np.uint32)
+    bl_idname = "tvg.export_frames"
+    bl_label = "Export TVG: frames"
+    bl_options = {"INTERNAL"}
 
-    def uvs(self):
-        """The active UV map of each object, for each corner; None where no object has one."""
-        if not self._uv_names:
-            return None
-        values, corners = np.unique(self._corner_uvs.reshape(-1, 2), axis=0, return_inverse=True)
-        name = self._uv_names[0]
-        return {name: tvg.Attribute(values, "texcoord", "corner", corners.reshape(-1, 3), name=name)}
+    job = None  # what there is to do, set before it is invoked
+    path = ""
+    running = 0  # how many are on their way
 
-    def positions(self, context, number):
-        """Of all vertices in a frame, in the world's space, float32 [vertex, 3]."""
-        graph = context.evaluated_depsgraph_get()
-        rows = []
-        for item, first_loops in zip(self._items, self._loops):
-            evaluated = item.evaluated_get(graph)
-            mesh = evaluated.to_mesh()
-            loops = np.empty(len(mesh.loops), dtype=np.int64)
-            mesh.loops.foreach_get("vertex_index", loops)
-            if not np.array_equal(loops, first_loops):
-                evaluated.to_mesh_clear()
-                raise ValueError(
-                    f"{item.name} has other faces in frame {number} than in the first: a modifier changes the mesh from "
-                    "frame to frame; apply it, or export frames with one mesh"
-                )
-            co = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-            mesh.vertices.foreach_get("co", co)
-            world = np.array(evaluated.matrix_world, dtype=np.float64)
-            rows.append((co.reshape(-1, 3) @ world[:3, :3].T + world[:3, 3]).astype(np.float32))
-            evaluated.to_mesh_clear()
-        positions = np.concatenate(rows)
-        if len(positions) != self._vertices:
-            raise ValueError(
-                f"frame {number} has {len(positions)} vertices and the first {self._vertices}: a modifier changes the "
-                "mesh from frame to frame; apply it, or export frames with one mesh"
-            )
-        return positions
+    def invoke(self, context, _event):
+        cls = type(self)
+        self._job, self._path, cls.job = cls.job, cls.path, None
+        if self._job is None:
+            return {"CANCELLED"}
+        wm = context.window_manager
+        wm.progress_begin(0, 1000)
+        self._timer = wm.event_timer_add(0.001, window=context.window)
+        wm.modal_handler_add(self)
+        cls.running += 1
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC":
+            self._job.cancel()
+            self._end(context)
+            self.report({"WARNING"}, f"{self._path}: cancelled, no file is left")
+            return {"CANCELLED"}
+        if event.type != "TIMER":
+            return {"RUNNING_MODAL"}  # the scene is not to change on the way
+        try:
+            report = self._job.step()
+        except _EXPECTED as error:
+            self._end(context)
+            self.report({"ERROR"}, f"{self._path}: {error}")
+            return {"CANCELLED"}
+        if report is not None:
+            self._end(context)
+            self.report({"INFO"}, _summary(self._path, report))
+            return {"FINISHED"}
+        done, count, what = self._job.progress
+        context.window_manager.progress_update(1000 * done // max(count, 1))
+        context.workspace.status_text_set(f"TVG: {what} frame {min(done, count)} of {count}    Esc: cancel")
+        return {"RUNNING_MODAL"}
+
+    def cancel(self, context):
+        """Blender closes the window or the file."""
+        self._job.cancel()
+        self._end(context)
+
+    def _end(self, context):
+        type(self).running -= 1
+        wm = context.window_manager
+        wm.event_timer_remove(self._timer)
+        wm.progress_end()
+        context.workspace.status_text_set(None)
+        self._job.restore()
+
+
+def _summary(path, report):
+    return f"{path}: {report.frames} frames, {report.bytes} bytes"

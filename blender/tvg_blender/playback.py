@@ -1,8 +1,8 @@
 """Plays streams just in time: at each frame of the scene the positions of imported meshes are decoded.
 
-An imported object has two properties of its own, kept in .blend files: `tvg_file` (its stream, "//" relative to the
-file) and `tvg_start` (the frame of the scene that shows the first frame). Of each stream one clip is open, and one
-frame is held.
+An imported object has two properties of its own, kept in .blend files: `tvg_file` (its stream; "//" is the folder of the
+.blend) and `tvg_start` (the frame of the scene that shows the first frame). Objects that show the same stream from the same
+frame on share a clip and the frame that is held; others have clips of their own, so that each goes forwards.
 """
 import zlib
 
@@ -13,24 +13,67 @@ from bpy.app.handlers import persistent
 
 FILE = "tvg_file"
 START = "tvg_start"
-
-_clips = {}  # by absolute path
-_broken = set()  # paths that were complained of
+_MOST_DAMAGES = 5  # that are told of each stream
 
 
-def clip_of(path):
-    """The open clip of a file."""
-    if path not in _clips:
-        _clips[path] = tvg.open(path, on_damage=lambda damage: print(f"TVG: {path}: {damage}"))
-    return _clips[path]
+class _Stream:
+    """An open stream and the frame of it that was decoded last."""
+
+    def __init__(self, path):
+        self.clip = tvg.open(path, on_damage=lambda damage: _note_damage(path, damage))
+        self._number = self._frame = None
+
+    def frame(self, number):
+        """A frame; those beyond either end are the first and the last."""
+        number = min(max(0, number), len(self.clip) - 1)
+        if number != self._number:
+            self._number = None
+            self._frame = self.clip[number]
+            self._number = number
+        return self._frame
+
+
+_streams = {}  # by absolute path and the frame of the scene that they start at
+_errors = {}  # by absolute path: why the frame at hand is not shown
+_damages = {}  # by absolute path: where the stream is broken
+
+
+def _note_damage(path, damage):
+    texts = _damages.setdefault(path, [])
+    if damage.text not in texts and len(texts) < _MOST_DAMAGES:
+        texts.append(damage.text)
+        print(f"TVG: {path}: {damage.text}")
+
+
+def path_of(item):
+    """The absolute path of an imported object's stream."""
+    return bpy.path.abspath(item[FILE])
+
+
+def open_stream(path, start):
+    """The stream of a path, for objects that show its first frame at the scene's frame `start`."""
+    key = (path, int(start))
+    if key not in _streams:
+        _streams[key] = _Stream(path)
+    return _streams[key]
+
+
+def troubles(item):
+    """What the user should know of an imported object's stream: an error or None, and where the stream is broken."""
+    path = path_of(item)
+    return _errors.get(path), list(_damages.get(path, ()))
 
 
 def close_all():
-    """Closes every clip; they are opened again where they are needed."""
-    for clip in _clips.values():
-        clip.close()
-    _clips.clear()
-    _broken.clear()
+    """Closes every stream; they are opened again where they are needed."""
+    _close_but(())
+    _errors.clear()
+    _damages.clear()
+
+
+def _close_but(keys):
+    for key in [key for key in _streams if key not in keys]:
+        _streams.pop(key).clip.close()
 
 
 def fill_mesh(mesh, frame):
@@ -92,24 +135,24 @@ def _fill_materials(mesh, source):
 
 
 def show(item, scene_frame):
-    """Puts the frame of an imported object that belongs to a frame of the scene into its mesh."""
-    path = bpy.path.abspath(item[FILE])
+    """Puts the frame of an imported object that belongs to a frame of the scene into its mesh, and says whether it could."""
+    path, start = path_of(item), int(item[START])
     try:
-        clip = clip_of(path)
-        number = min(max(0, scene_frame - int(item[START])), len(clip) - 1)
-        frame = clip[number]
+        frame = open_stream(path, start).frame(scene_frame - start)
     except (OSError, tvg.Error, IndexError) as error:
-        if path not in _broken:
-            _broken.add(path)
+        if path not in _errors:
             print(f"TVG: {item.name}: {error}")
-        return
+        _errors[path] = str(error)
+        return False
+    _errors.pop(path, None)
     mesh = item.data
     if len(mesh.vertices) != len(frame.positions) or mesh.get("tvg_faces") != _mark(frame.mesh):
         fill_mesh(mesh, frame)
         mesh["tvg_faces"] = _mark(frame.mesh)
-        return
+        return True
     mesh.vertices.foreach_set("co", frame.positions.ravel())
     mesh.update()
+    return True
 
 
 def _mark(mesh):
@@ -117,11 +160,16 @@ def _mark(mesh):
     return f"{len(mesh.faces)}:{zlib.crc32(mesh.faces.tobytes())}"
 
 
+def _imported(scene):
+    return [item for item in scene.objects if FILE in item and START in item and item.type == "MESH"]
+
+
 @persistent
 def _on_frame(scene, *_):
-    for item in scene.objects:
-        if FILE in item and item.type == "MESH":
-            show(item, scene.frame_current)
+    items = _imported(scene)
+    for item in items:
+        show(item, scene.frame_current)
+    _close_but({(path_of(item), int(item[START])) for other in bpy.data.scenes for item in _imported(other)})
 
 
 @persistent

@@ -95,6 +95,25 @@ class RoundTrips(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "where meshes change"):
                 clip.positions()
 
+    def test_meshes_that_grow_bring_their_attributes_parts_and_polygons(self):
+        frames = []
+        for side in (4, 9):
+            squares = side * side
+            heat = tvg.Attribute(np.linspace(0, 1, squares, dtype=np.float32), name="heat")
+            uv = tvg.Attribute(np.zeros((1, 2), np.float32), "texcoord", "corner", np.zeros_like(grid(side)))
+            parts = [tvg.Part(object=f"part {number}") for number in range(side)]
+            faces = grid(side).astype(np.uint32)
+            mesh = tvg.Mesh(faces, squares, tvg.Attributes([heat, uv]), parts, np.arange(len(faces), dtype=np.uint32) % side)
+            frames.append(tvg.Frame(wave(1, side)[0].astype(np.float32), mesh))
+        sizes = [frame.mesh.property_bytes() for frame in frames]
+        self.assertLess(sizes[0], sizes[1])
+        most = {"vertices": 81, "faces": len(frames[1].faces), "property_bytes": sizes[1]}
+        for stream in (tvg.encode(frames), tvg.encode(iter(frames), limits=most)):
+            with tvg.open(stream) as clip:
+                self.assertEqual([len(frame.mesh.parts) for frame in clip], [4, 9])
+        with self.assertRaisesRegex(tvg.Error, "the head declares"):
+            tvg.encode(iter(frames), limits={**most, "property_bytes": sizes[1] - 1})
+
     def test_streams_join_at_their_borders(self):
         one, other = (tvg.encode(part, grid(), step=0.01) for part in np.split(wave(), 2))
         np.testing.assert_array_equal(

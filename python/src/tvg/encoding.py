@@ -156,7 +156,8 @@ def encode(
         box: ((x, y, z), (x, y, z)) that all frames lie in: makes one lattice for frames that are gone through once.
         reorder: vertices may change their order, which saves bytes.
         limits: of the meshes to come, where frames are gone through once and their mesh grows: "vertices", "faces",
-            "meshes" (that a decoder keeps in case they come again), "property_bytes", "animated_frame_bytes".
+            "meshes" (that a decoder keeps in case they come again), "property_bytes" (`Mesh.property_bytes`),
+            "animated_frame_bytes".
         first_frame: number of the first frame in a longer sequence.
         progress: called with the frames so far, and how many there are, or None.
 
@@ -244,6 +245,7 @@ def _frames_of(
         for _, mesh, _values in frames:
             c.max_vertices = max(c.max_vertices, mesh.vertex_count)
             c.max_faces = max(c.max_faces, len(mesh.faces))
+            c.max_property_bytes = max(c.max_property_bytes, mesh.property_bytes())
     box = bounding_box(frames.plain()) if again and options.needs_box() else None
     return frames, box
 

@@ -177,6 +177,26 @@ class Mesh:
         more = f", {', '.join(self.attributes)}" if self.attributes else ""
         return f"<tvg.Mesh: {self.vertex_count} vertices, {len(self.faces)} faces{more}>"
 
+    def property_bytes(self) -> int:
+        """What parts, polygons and attributes count for against the bound that a stream declares.
+
+        Of frames that are gone through once, the most of any mesh is `limits={"property_bytes": ...}` of `encode`.
+        """
+        total = 16 * (0 if self.polygons is None else len(self.polygons))
+        for part in self.parts:
+            total += 192 + sum(len(text.encode()) for text in (part.object, part.group, part.material))
+        if self.parts:
+            total += 4 * len(self.faces)
+        values = {"vertex": self.vertex_count, "part": len(self.parts)}
+        for attribute in self.attributes.values():
+            size = 256 + len(attribute.name.encode())
+            if attribute.domain == "corner":
+                size += 12 * len(self.faces) * (1 + attribute.components)
+            else:
+                size += 4 * attribute.components * values[attribute.domain]
+            total += 5 * size + 2**15 + 48 * len(self.faces) if attribute.animated else size
+        return total
+
     def polygon_faces(self) -> "List[npt.NDArray[np.uint32]]":
         """The faces as they were before they became triangles: vertex numbers of each, in order."""
         starts: Dict[int, int] = {}
