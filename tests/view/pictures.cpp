@@ -23,8 +23,7 @@ Sequence corpus_sequence(std::string_view name, std::uint32_t vertices) {
 Image draw(const Sequence& sequence, const ShownFrame& frame, const Style& style,
            cli::ColourMap map = cli::ColourMap::kViridis) {
   PicturePainter painter(kWidth, kHeight, style, false);
-  const BoundingBox bounds = bounds_of(sequence);
-  painter.set_scene(bounds, UpAxis::kY, camera_for(bounds, static_cast<double>(kWidth) / kHeight));
+  painter.set_scene(bounds_of(sequence), camera_for(sequence, static_cast<double>(kWidth) / kHeight));
   painter.begin();
   painter.draw(frame, PicturePainter::Which::kShown, map, {0, 0, kWidth, kHeight});
   return painter.finish();
@@ -87,9 +86,7 @@ Image draw_sheet() {
   const Sequence hand = corpus_sequence("hand", 1600);
   PicturePainter painter(kWidth, kHeight, {}, false);
   const std::vector<Cell> cells = sheet_cells(kWidth, kHeight, 3, 2);
-  const BoundingBox bounds = bounds_of(hand);
-  painter.set_scene(bounds, UpAxis::kY,
-                    camera_for(bounds, static_cast<double>(cells[0].width) / cells[0].height));
+  painter.set_scene(bounds_of(hand), camera_for(hand, static_cast<double>(cells[0].width) / cells[0].height));
   painter.begin();
   const std::vector<std::uint64_t> chosen = spread_evenly(kFrames, cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
