@@ -20,6 +20,8 @@ ViewExtent::ViewExtent(const CameraAxes& axes, double slope_x, double slope_y)
       slopes_{slope_x, slope_y},
       low_{INFINITY, INFINITY},
       high_{-INFINITY, -INFINITY},
+      flat_low_(low_),
+      flat_high_(high_),
       nearest_(-INFINITY) {}
 
 // A point is in the picture where |across - middle| <= slope * (distance - depth), so that the two planes on
@@ -32,6 +34,8 @@ void ViewExtent::extend(double x, double y, double z) {
   for (std::size_t i = 0; i < 2; ++i) {
     low_[i] = std::min(low_[i], on_screen[i] - slopes_[i] * depth);
     high_[i] = std::max(high_[i], on_screen[i] + slopes_[i] * depth);
+    flat_low_[i] = std::min(flat_low_[i], on_screen[i]);
+    flat_high_[i] = std::max(flat_high_[i], on_screen[i]);
   }
   nearest_ = std::max(nearest_, depth);
 }
@@ -57,6 +61,8 @@ void ViewExtent::pad(double margin) {
     const double of_plane = margin * std::hypot(1, slopes_[i]);
     low_[i] -= of_plane;
     high_[i] += of_plane;
+    flat_low_[i] -= margin;
+    flat_high_[i] += margin;
   }
   nearest_ += margin;
   bounds_.pad(margin);
@@ -68,16 +74,27 @@ ViewExtent::Placement ViewExtent::place() const {
   if (!std::isfinite(nearest_)) return {center, 20 * room};
   const double depth = dot(center, axes_.backward);
   Placement placement{{}, nearest_ - depth + room};
-  std::array<double, 2> middle{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    middle[i] = (low_[i] + high_[i]) / 2;
-    placement.distance = std::max(placement.distance, (high_[i] - low_[i]) / 2 / slopes_[i] - depth);
-  }
+  for (std::size_t i = 0; i < 2; ++i)
+    placement.distance = std::max(placement.distance, half(i, depth) / slopes_[i]);
+  const std::array<double, 2> middle = {middle_at(0, placement.distance, depth),
+                                        middle_at(1, placement.distance, depth)};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     placement.target[axis] =
         middle[0] * axes_.right[axis] + middle[1] * axes_.up[axis] + depth * axes_.backward[axis];
   }
   return placement;
+}
+
+double ViewExtent::half(std::size_t i, double depth) const {
+  return (high_[i] - low_[i]) / 2 - slopes_[i] * depth;
+}
+
+/// Where there is room left, the points lie within planes that are less steep than the pyramid's. How far out
+/// those are lies at most on the line between what it is for planes without a slope and for the pyramid's.
+double ViewExtent::middle_at(std::size_t i, double distance, double depth) const {
+  const double flat_half = (flat_high_[i] - flat_low_[i]) / 2;
+  const double slope = flat_half / (distance - (half(i, depth) - flat_half) / slopes_[i]);
+  return std::lerp((flat_low_[i] + flat_high_[i]) / 2, (low_[i] + high_[i]) / 2, slope / slopes_[i]);
 }
 
 }  // namespace tvg::player

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include <tvg/geometry.hpp>
@@ -32,8 +33,8 @@ class ViewExtent {
   /// The box around the points.
   const BoundingBox& bounds() const { return bounds_; }
 
-  /// Where the camera stands so that the points just fit: the point it looks at, as deep in the picture as
-  /// the middle of the box, and how far off it is.
+  /// Where the camera stands so that the points just fit across or up, and are about in the middle otherwise:
+  /// the point it looks at, as deep in the picture as the middle of the box, and how far off it is.
   struct Placement {
     std::array<double, 3> target{};
     double distance = 0;
@@ -43,10 +44,15 @@ class ViewExtent {
 
  private:
   void extend(double x, double y, double z);
+  /// Half of what the points take across (0) or up (1) at the depth, as the pyramid's planes have it.
+  double half(std::size_t i, double depth) const;
+  /// The middle of the points across or up in the picture of a camera so far off.
+  double middle_at(std::size_t i, double distance, double depth) const;
 
   CameraAxes axes_;
   std::array<double, 2> slopes_;
-  std::array<double, 2> low_, high_;  // across and up, each of points moved along their plane to depth 0
+  // Across and up: of the points moved along the pyramid's planes to depth 0, and of the points themselves.
+  std::array<double, 2> low_, high_, flat_low_, flat_high_;
   double nearest_;
   BoundingBox bounds_;
 };
