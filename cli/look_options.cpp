@@ -14,6 +14,13 @@ void add_view_options(CLI::App& command, player::LookArguments& arguments) {
   command.add_option("--camera", arguments.camera,
                      "front, back, left, right, top, bottom, iso, or azimuth,elevation[,zoom] in degrees "
                      "(default 30,15)");
+  command.add_option("--up", arguments.up,
+                     "the axis that is up: +X, -X, +Y, -Y, +Z or -Z (default: as the input's metadata say, "
+                     "else +Y)");
+  command.add_option("--front", arguments.front,
+                     "the axis that looks at who sees the front, likewise (default: +Z where y is up, -Y "
+                     "where z is)");
+  command.add_flag("--axes", arguments.axes, "show in a corner which way x, y and z go");
   command.add_option("--shading", arguments.shading,
                      "smooth or flat (default: as the input's metadata say, else smooth)");
   command.add_flag("--plain", arguments.plain,

@@ -8,8 +8,8 @@ build=(cmake g++ make ninja-build pkg-config libeigen3-dev libnanoflann-dev libo
   nlohmann-json3-dev libxxhash-dev libgtest-dev libgmock-dev libglfw3-dev libimgui-dev libepoxy-dev libegl-dev
   libfontconfig-dev libgl1-mesa-dri libjpeg-dev libpng-dev libcurl4-openssl-dev libcpp-httplib-dev fonts-dejavu-core libassimp-dev
   libtinygltf-dev libmeshoptimizer-dev libzstd-dev zlib1g-dev)
-test=(ffmpeg nginx-light xvfb assimp-testmodels python3 python3-numpy python3-setuptools python3-wheel python3-pip
-  python3-venv python3-mypy slurm-wlm munge parallel)
+test=(ffmpeg nginx-light xvfb libx11-dev assimp-testmodels python3 python3-numpy python3-setuptools python3-wheel
+  python3-pip python3-venv python3-mypy slurm-wlm munge parallel)
 bench=(libbenchmark-dev libdraco-dev)
 check=(clang clang-format clang-tidy libclang-rt-14-dev)
 # Without g++-multilib, which Debian does not let stand beside compilers for other machines.

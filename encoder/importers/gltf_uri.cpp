@@ -2,10 +2,10 @@
 
 #include "encoder/importers/import_error.hpp"
 #include "encoder/importers/input_file.hpp"
+#include "tool/percent_decoded.hpp"
 
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
@@ -75,25 +75,6 @@ std::optional<std::string> decode_data_uri(std::string_view uri) {
   if (!head.ends_with(";base64")) return percent_decoded(body);
   return body.find('%') == std::string_view::npos ? decode_base64(body)
                                                   : decode_base64(percent_decoded(body));
-}
-
-std::string percent_decoded(std::string_view text) {
-  std::string decoded;
-  decoded.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned value = 0;
-    if (text[i] == '%' && i + 2 < text.size()) {
-      const char* const end = text.data() + i + 3;
-      const auto [stop, error] = std::from_chars(text.data() + i + 1, end, value, 16);
-      if (error == std::errc() && stop == end) {
-        decoded += static_cast<char>(value);
-        i += 2;
-        continue;
-      }
-    }
-    decoded += text[i];
-  }
-  return decoded;
 }
 
 std::string read_beside(const std::string& scene, const std::string& uri) {

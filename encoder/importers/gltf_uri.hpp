@@ -8,9 +8,6 @@ namespace tvg::cli {
 /// The bytes of a data URI; nothing where they are not well-formed. `uri` begins with "data:".
 std::optional<std::string> decode_data_uri(std::string_view uri);
 
-/// `text` with its %XX replaced by the bytes they stand for; others stay as they are.
-std::string percent_decoded(std::string_view text);
-
 /// Reads the file that a URI names beside `scene`, within its folder or those below: whatever a file from a
 /// stranger names may end up in what is made of it, so nothing else on the machine is opened, and nothing is
 /// fetched from elsewhere. Throws ImportError that names both (kIo, kInvalidInput).

@@ -21,6 +21,7 @@ struct ShownFrame {
   std::shared_ptr<const Mesh> mesh;                        ///< the same object as long as the mesh stays
   std::shared_ptr<const Surface> surface = {};             ///< how that mesh looks; null where nobody says
   FramePositions positions;                                ///< [vertex][xyz]
+  std::vector<float> colours = {};                         ///< of Surface::frame_colours; empty without
   std::shared_ptr<const std::vector<std::uint8_t>> flags;  ///< [vertex]: 1 important; null without a GOP's
   std::vector<float> joints;                               ///< [joint][xyz]; empty without a skeleton
   std::vector<float> values;  ///< [vertex], what an overlay makes of them; empty without one

@@ -43,6 +43,10 @@ class SourceFrames final : public ShownFrames {
     const std::span<const float> joints = source_->joint_positions();
     frame.joints.assign(joints.begin(), joints.end());
     frame.values.clear();
+    frame.colours.clear();
+    if (surface_ == nullptr || !surface_->frame_colours) return true;
+    const std::span<const float> colours = source_->animated_values(surface_->frame_colours->attribute);
+    frame.colours.assign(colours.begin(), colours.end());
     return true;
   }
 

@@ -165,6 +165,11 @@ class StreamFrames final : public ShownFrames {
     loaded_frame_.surface = surface_;
     loaded_frame_.positions.resize(3 * std::size_t{mesh_->vertex_count});
     decoder.copy_positions(loaded_frame_.positions.data());
+    loaded_frame_.colours.clear();
+    if (surface_ != nullptr && surface_->frame_colours) {
+      const std::span<const float> colours = decoder.animated_values(surface_->frame_colours->attribute);
+      loaded_frame_.colours.assign(colours.begin(), colours.end());
+    }
     loaded_frame_.flags = flags_;
     if (spec_.joints) loaded_frame_.joints = joints_at(*spec_.joints, loaded_frame_.number, reader_->name());
   }

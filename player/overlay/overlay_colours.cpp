@@ -3,6 +3,7 @@
 #include "player/overlay/overlay_values.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -14,6 +15,7 @@ namespace {
 constexpr double kShareBelowError = 0.999;
 constexpr double kShareBelowCost = 0.95;
 
+/// The marks that the stream carries, GOP by GOP.
 class ImportanceColours final : public OverlayColours {
  public:
   ImportanceColours() : OverlayColours(1, 1.0) {}
@@ -24,14 +26,27 @@ class ImportanceColours final : public OverlayColours {
     legend.title = "importance";
     legend.flagged = "important (fine lattice)";
     legend.plain = "other (coarse lattice)";
+    const std::uint64_t marked = marked_, vertices = vertices_;
+    if (vertices == 0) return legend;
+    if (marked == vertices) {
+      legend.flagged = "every vertex: there is one lattice";
+    } else {
+      legend.flagged +=
+          fmt::format(", {:.3g} %", 100 * static_cast<double>(marked) / static_cast<double>(vertices));
+    }
     return legend;
   }
 
  private:
   void fill(const OverlayFrame& frame, std::vector<float>& values) override {
+    vertices_ += frame.flags.size();
+    marked_ += static_cast<std::uint64_t>(std::ranges::count(frame.flags, 1));
     values.resize(frame.flags.size());
     importance_values(frame.flags, values);
   }
+
+  // Of all frames so far. Whoever asks for the legend may do so from another thread.
+  std::atomic<std::uint64_t> vertices_ = 0, marked_ = 0;
 };
 
 /// The measure's cost over each GOP. It takes all frames of a GOP to know it: where they come one by one, the

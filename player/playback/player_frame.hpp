@@ -26,6 +26,7 @@ struct PlayerFrame {
   std::shared_ptr<const PlayerGop> gop;
   std::vector<float> positions;  ///< [vertex][xyz]
   std::vector<float> normals;    ///< [vertex][xyz], unit length
+  std::vector<float> colours;    ///< of Surface::frame_colours; empty without
   std::vector<float> values;     ///< [vertex], what a FrameDecorator made; empty without one
   std::uint64_t packet_bytes = 0;
   std::array<double, 3> bits{};  ///< of the residuals of x, y, z; zeros unless LoaderOptions asks for them

@@ -276,6 +276,11 @@ void StreamLoader::fill_frame(PlayerFrame& frame, double decode_ms) {
   frame.gop = gop_;
   frame.positions.resize(count);
   decoder_->copy_positions(frame.positions.data());
+  frame.colours.clear();
+  if (frame.surface != nullptr && frame.surface->frame_colours) {
+    const std::span<const float> colours = decoder_->animated_values(frame.surface->frame_colours->attribute);
+    frame.colours.assign(colours.begin(), colours.end());
+  }
   frame.decode_ms = decode_ms + milliseconds_since(start);
   const Clock::time_point decoded = Clock::now();
   frame.normals.resize(count);

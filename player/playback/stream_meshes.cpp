@@ -41,9 +41,12 @@ void StreamLoader::begin_mesh() {
   fit_ring(state_.mesh->vertex_count);
 }
 
-/// As many frames as fit the bytes allowed: positions, normals and values of each.
+/// As many frames as fit the bytes allowed: positions, normals and values of each, and its colours.
 void StreamLoader::fit_ring(std::size_t vertices) {
-  const std::uint64_t frame_bytes = 7 * sizeof(float) * std::max<std::uint64_t>(vertices, 1);
+  std::uint64_t numbers = 7 * std::max<std::uint64_t>(vertices, 1);
+  if (surface_ != nullptr && surface_->frame_colours)
+    numbers += decoder_->properties().attributes[surface_->frame_colours->attribute].values.size();
+  const std::uint64_t frame_bytes = numbers * sizeof(float);
   const std::uint64_t fitting = std::max<std::uint64_t>(options_.ring_bytes / frame_bytes, 2);
   ring_.set_capacity(static_cast<std::size_t>(
       std::min<std::uint64_t>(std::max<std::size_t>(options_.ring_frames, 2), fitting)));

@@ -36,14 +36,14 @@ Legend flags_legend(const std::vector<std::uint8_t>& flags) {
 void draw_measure_picture(const std::string& path, const FrameSource& source, const cli::MeasuredFrame& frame,
                           const std::string& criteria, const Look& look) {
   const std::vector<Cell> cells = sheet_cells(look.width, look.height, 2, 1);
-  PicturePainter painter(look.width, look.height, look.style, true);
-  BoundingBox bounds;
-  bounds.extend(frame.positions);
   OrbitCamera camera;
   camera.set_angles(look.angles);
-  const UpAxis up = up_axis_of(source.metadata());
-  camera.fit_closely(bounds, up, static_cast<double>(cells[0].width) / cells[0].height);
-  painter.set_scene(bounds, up, camera);
+  camera.set_orientation(look.orientation.of(source.metadata()));
+  ViewExtent extent = camera.extent(static_cast<double>(cells[0].width) / cells[0].height);
+  extent.extend(frame.positions);
+  camera.fit(extent);
+  PicturePainter painter(look.width, look.height, look.style, true, look.axes);
+  painter.set_scene(extent.bounds(), camera);
 
   const cli::ValueRange range = cli::cost_range(frame.cost);
   ShownFrame shown;
@@ -63,6 +63,7 @@ void draw_measure_picture(const std::string& path, const FrameSource& source, co
   painter.legend(cost_legend(criteria, range), cells[0]);
   painter.legend(flags_legend(frame.flags), cells[1]);
   painter.label(cells[0], fmt::format("frame {}", frame.number));
+  painter.axes(cells[1]);
   write_png(path, painter.finish());
 }
 

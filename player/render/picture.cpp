@@ -1,5 +1,7 @@
 #include "player/render/picture.hpp"
 
+#include "player/view/axes_gizmo.hpp"
+
 #include <algorithm>
 
 #include <tvg/normals.hpp>
@@ -18,14 +20,14 @@ std::vector<Cell> sheet_cells(int width, int height, int columns, int rows) {
   return cells;
 }
 
-PicturePainter::PicturePainter(int width, int height, const Style& style, bool labels)
-    : framebuffer_(width, height), style_(style) {
-  if (labels) text_.emplace(text_size(height));
+PicturePainter::PicturePainter(int width, int height, const Style& style, bool labels, bool axes)
+    : framebuffer_(width, height), style_(style), has_labels_(labels), has_axes_(axes) {
+  if (labels || axes) text_.emplace(text_size(height));
 }
 
-void PicturePainter::set_scene(const BoundingBox& bounds, UpAxis up, const OrbitCamera& camera) {
-  shown_.renderer.set_scene(bounds, up);
-  reference_.renderer.set_scene(bounds, up);
+void PicturePainter::set_scene(const BoundingBox& bounds, const OrbitCamera& camera) {
+  shown_.renderer.set_scene(bounds, camera.orientation());
+  reference_.renderer.set_scene(bounds, camera.orientation());
   camera_ = camera;
 }
 
@@ -46,7 +48,7 @@ void PicturePainter::draw(const ShownFrame& frame, Which which, cli::ColourMap m
   if (style_.shading == Shading::kSmooth) {
     vertex_normals(frame.mesh->faces, frame.positions, subject.normals);
   }
-  subject.renderer.set_frame(frame.positions, subject.normals, frame.values, map);
+  subject.renderer.set_frame(frame.positions, subject.normals, frame.values, map, frame.colours);
   subject.renderer.draw(camera_, style_, viewport(cell));
 }
 
@@ -54,9 +56,13 @@ void PicturePainter::clear(const Cell& cell) {
   shown_.renderer.draw_background(style_, viewport(cell));
 }
 
+float PicturePainter::text_size_of(const Cell& cell) const {
+  return std::min(text_size(framebuffer_.height()), text_size(2 * cell.height));
+}
+
 void PicturePainter::label(const Cell& cell, const std::string& text) {
-  if (list_ == nullptr) return;
-  const float size = std::min(text_size(framebuffer_.height()), text_size(2 * cell.height));
+  if (list_ == nullptr || !has_labels_) return;
+  const float size = text_size_of(cell);
   draw_label(*list_,
              {static_cast<float>(cell.x) + 0.6F * size,
               static_cast<float>(cell.y + cell.height) - 2.1F * size, size},
@@ -64,7 +70,7 @@ void PicturePainter::label(const Cell& cell, const std::string& text) {
 }
 
 void PicturePainter::legend(const Legend& legend, bool between) {
-  if (list_ == nullptr) return;
+  if (list_ == nullptr || !has_labels_) return;
   const float size = text_size(framebuffer_.height());
   TextPlace place{size, size, size};
   if (between) {
@@ -74,13 +80,23 @@ void PicturePainter::legend(const Legend& legend, bool between) {
 }
 
 void PicturePainter::legend(const Legend& legend, const Cell& cell) {
-  if (list_ == nullptr) return;
+  if (list_ == nullptr || !has_labels_) return;
   const float size = text_size(framebuffer_.height());
   draw_legend(*list_, {static_cast<float>(cell.x) + size, static_cast<float>(cell.y) + size, size}, legend);
 }
 
+void PicturePainter::axes(const Cell& cell) {
+  if (list_ == nullptr || !has_axes_) return;
+  const float size = text_size_of(cell);
+  const float inwards = axes_reach(size) + 0.6F * size;
+  draw_axes(*list_, camera_.axes(),
+            {static_cast<float>(cell.x + cell.width) - inwards,
+             static_cast<float>(cell.y + cell.height) - inwards, size},
+            has_labels_);
+}
+
 void PicturePainter::pose(const Pose& pose, const Cell& cell) {
-  if (list_ == nullptr) return;
+  if (list_ == nullptr || !has_labels_) return;
   const PictureArea area{static_cast<float>(cell.x), static_cast<float>(cell.y),
                          static_cast<float>(cell.width), static_cast<float>(cell.height)};
   draw_pose(*list_, camera_, area, pose, text_size(framebuffer_.height()));

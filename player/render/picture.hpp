@@ -28,7 +28,7 @@ std::vector<Cell> sheet_cells(int width, int height, int columns, int rows);
 class PicturePainter {
  public:
   /// Size in pixels. With `labels`, text is drawn. Throws ToolError where this machine cannot draw.
-  PicturePainter(int width, int height, const Style& style, bool labels);
+  PicturePainter(int width, int height, const Style& style, bool labels, bool axes = false);
 
   /// Smooth or flat, from the next picture on.
   void set_shading(Shading shading) { style_.shading = shading; }
@@ -37,7 +37,7 @@ class PicturePainter {
     style_.background_top = style_.background_bottom = colour;
   }
   /// What all pictures show, and from where.
-  void set_scene(const BoundingBox& bounds, UpAxis up, const OrbitCamera& camera);
+  void set_scene(const BoundingBox& bounds, const OrbitCamera& camera);
 
   /// Two meshes can be drawn in turn without their being sent to the driver anew each time.
   enum class Which { kShown, kReference };
@@ -53,6 +53,8 @@ class PicturePainter {
   void legend(const Legend& legend, bool between);
   /// A legend of its own in the upper left corner of a cell.
   void legend(const Legend& legend, const Cell& cell);
+  /// Which way x, y and z go, in the lower right corner of a cell, where the constructor was told so.
+  void axes(const Cell& cell);
   /// A skeleton over what was drawn into a cell.
   void pose(const Pose& pose, const Cell& cell);
   /// The picture, valid until the next begin().
@@ -62,6 +64,8 @@ class PicturePainter {
   Viewport viewport(const Cell& cell) const {
     return {cell.x, framebuffer_.height() - cell.y - cell.height, cell.width, cell.height};
   }
+
+  float text_size_of(const Cell& cell) const;
 
   struct Subject {
     MeshRenderer renderer;
@@ -73,8 +77,10 @@ class PicturePainter {
   Framebuffer framebuffer_;
   Style style_;
   Subject shown_, reference_;
+  bool has_labels_;
+  bool has_axes_;
   std::optional<TextLayer> text_;
-  ImDrawList* list_ = nullptr;
+  ImDrawList* list_ = nullptr;  // of what goes over the picture; null where nothing does
   OrbitCamera camera_;
   Image image_;
 };

@@ -53,11 +53,13 @@ Image draw_poster(const std::string& stream, int width, int height) {
   PicturePainter painter(width, height, style, false);
   BoundingBox bounds;
   bounds.extend(frame.positions);
-  const UpAxis up = up_axis_of(frames->metadata());
   bounds.pad(kRoom * view_radius(bounds));
   OrbitCamera camera;
-  camera.fit_closely(bounds, up, static_cast<double>(width) / height);
-  painter.set_scene(bounds, up, camera);
+  camera.set_orientation(Orientation(up_of(frames->metadata())));
+  ViewExtent extent = camera.extent(static_cast<double>(width) / height);
+  extent.extend(bounds);
+  camera.fit(extent);
+  painter.set_scene(bounds, camera);
   std::array<Image, 2> pictures;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     painter.set_background(i == 0 ? cli::Colour{0, 0, 0} : cli::Colour{1, 1, 1});

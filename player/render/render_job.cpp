@@ -17,27 +17,32 @@ namespace tvg::player {
 
 namespace {
 
+/// What moves about after the first frame of a pipe, in radii of that.
+constexpr double kRoom = 0.24;
+
 class RenderJob {
  public:
   explicit RenderJob(const RenderOptions& options)
-      : options_(options), frames_(options), bar_("rendering", options.quiet) {}
+      : options_(options), frames_(options), bar_("rendering", options.quiet) {
+    camera_.set_angles(options.angles);
+    camera_.set_orientation(options.orientation.of(frames_.metadata()));
+  }
 
   void run() {
-    const bool single = options_.kind == RenderOptions::Output::kPicture;
+    count_ = frames_.wanted();
     // What a file holds is looked through first, so that camera and colours keep still; a pipe shows its
     // first frame only.
     if (frames_.rewind()) {
       survey_all();
-    } else if (single && !options_.frames) {
+    } else if (is_sheet() && !count_) {
       throw cli::ToolError(
           cli::ExitStatus::kUsage,
           "standard input can be read only once: name the frames of the picture with --frames");
     } else {
-      count_ =
-          options_.frames ? std::optional(options_.frames->last - options_.frames->first + 1) : std::nullopt;
+      plan();
     }
-    PicturePainter painter(options_.width, options_.height, options_.style, options_.labels);
-    if (single && (count_ != 1 || options_.sheet)) {
+    PicturePainter painter(options_.width, options_.height, options_.style, options_.labels, options_.axes);
+    if (is_sheet()) {
       draw_sheet(painter);
     } else {
       draw_frames(painter);
@@ -48,55 +53,83 @@ class RenderJob {
   }
 
  private:
+  bool is_sheet() const {
+    return options_.kind == RenderOptions::Output::kPicture && (count_ != 1 || options_.sheet);
+  }
+
+  /// Cells, and of a sheet the frames in them: by count_, which a sheet has to know.
+  void plan() {
+    int columns = 1, rows = 1;
+    const int across = options_.side_by_side ? 2 : 1;
+    in_sheet_.clear();
+    if (is_sheet()) {
+      const SheetShape shape =
+          options_.sheet ? *options_.sheet : sheet_shape(*count_, options_.width, options_.height * across);
+      columns = shape.columns;
+      rows = shape.rows;
+      in_sheet_ =
+          spread_evenly(*count_, static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows));
+    }
+    cells_ = sheet_cells(options_.width, options_.height, columns * across, rows);
+    extent_ = camera_.extent(static_cast<double>(cells_[0].width) / cells_[0].height);
+  }
+
+  /// Looks through all frames for what is to be in the picture.
   void survey_all() {
+    if (!count_) count_ = look_through(false);
+    for (;;) {
+      plan();
+      const std::uint64_t count = look_through(true);
+      if (count == count_) break;
+      count_ = count;  // the input has other frames than it says
+    }
+    surveyed_ = true;
+  }
+
+  /// Returns how many frames there are, and goes back to the first.
+  std::uint64_t look_through(bool surveys) {
     std::uint64_t count = 0;
     cli::ProgressBar bar("looking through", options_.quiet);
     while (frames_.next()) {
-      survey_frame();
+      const bool is_shown = in_sheet_.empty() || std::ranges::binary_search(in_sheet_, count);
+      if (surveys && is_shown) survey_frame();
       bar.update(++count, frames_.wanted());
     }
     if (count == 0) throw no_frames();
     check_complete(count);
-    count_ = count;
-    surveyed_ = true;
     frames_.rewind();
+    return count;
   }
 
   void survey_frame() {
-    extend_bounds(frames_.frame());
-    if (options_.side_by_side) extend_bounds(frames_.reference());
+    extend_view(frames_.frame());
+    if (options_.side_by_side) extend_view(frames_.reference());
   }
 
-  void extend_bounds(const ShownFrame& frame) {
-    if (!shows_nothing(*frame.mesh)) bounds_.extend(frame.positions);
+  void extend_view(const ShownFrame& frame) {
+    if (!shows_nothing(*frame.mesh)) extent_->extend(frame.positions);
   }
 
   /// Once the camera knows what it looks at: after the survey, or at the first frame of a pipe.
-  void prepare(PicturePainter& painter, int cell_width, int cell_height) {
+  void prepare(PicturePainter& painter) {
     if (!surveyed_) {
       survey_frame();
-      bounds_.pad(0.24 * view_radius(bounds_));
+      extent_->pad(kRoom * view_radius(extent_->bounds()));
     }
     frames_.keep_scale(surveyed_);
-    OrbitCamera camera;
-    camera.set_angles(options_.angles);
-    const UpAxis up_axis = up_axis_of(frames_.metadata());
-    camera.fit_closely(bounds_, up_axis, static_cast<double>(cell_width) / cell_height);
-    painter.set_scene(bounds_, up_axis, camera);
+    camera_.fit(*extent_);
+    painter.set_scene(extent_->bounds(), camera_);
     if (!options_.shading_is_given) painter.set_shading(shading_of(frames_.metadata()));
   }
 
   void draw_frames(PicturePainter& painter) {
     const std::unique_ptr<PictureOutput> output = open_output(options_, frame_rate());
-    const std::vector<Cell> cells =
-        sheet_cells(options_.width, options_.height, options_.side_by_side ? 2 : 1, 1);
     const std::vector<double> times = frames_.times();
     while (frames_.next()) {
-      if (drawn_ == 0) prepare(painter, cells[0].width, cells[0].height);
+      if (drawn_ == 0) prepare(painter);
       painter.begin();
-      draw_frame(painter, cells, {});
-      if (frames_.legend()) painter.legend(*frames_.legend(), options_.side_by_side);
-      const Image& image = painter.finish();
+      draw_frame(painter, cells_, {});
+      const Image& image = finish(painter);
       for (std::uint64_t i = pictures_of(frames_.frame().number, times); i > 0; --i)
         output->add(image, frames_.frame().number);
       bar_.update(++drawn_, count_);
@@ -108,28 +141,27 @@ class RenderJob {
   }
 
   void draw_sheet(PicturePainter& painter) {
-    const int across = options_.side_by_side ? 2 : 1;
-    const SheetShape shape =
-        options_.sheet ? *options_.sheet : sheet_shape(*count_, options_.width, options_.height * across);
-    const std::vector<std::uint64_t> wanted = spread_evenly(
-        *count_, static_cast<std::uint64_t>(shape.columns) * static_cast<std::uint64_t>(shape.rows));
-    const std::vector<Cell> cells =
-        sheet_cells(options_.width, options_.height, shape.columns * across, shape.rows);
+    const std::size_t across = options_.side_by_side ? 2 : 1;
     painter.begin();
     std::uint64_t position = 0;
-    while (drawn_ < wanted.size() && frames_.next()) {
-      if (position == 0) prepare(painter, cells[0].width, cells[0].height);
-      if (position++ != wanted[drawn_]) continue;
-      const auto first = cells.begin() + static_cast<std::ptrdiff_t>(drawn_) * across;
-      draw_frame(painter, {first, first + across}, fmt::format("frame {}", frames_.frame().number));
-      bar_.update(++drawn_, wanted.size());
+    while (drawn_ < in_sheet_.size() && frames_.next()) {
+      if (position == 0) prepare(painter);
+      if (position++ != in_sheet_[drawn_]) continue;
+      const auto first = cells_.begin() + static_cast<std::ptrdiff_t>(drawn_ * across);
+      draw_frame(painter, {first, first + static_cast<std::ptrdiff_t>(across)},
+                 fmt::format("frame {}", frames_.frame().number));
+      bar_.update(++drawn_, in_sheet_.size());
     }
-    if (drawn_ < wanted.size()) check_complete(position);
-    for (std::size_t i = drawn_ * static_cast<std::size_t>(across); i < cells.size(); ++i)
-      painter.clear(cells[i]);
-    if (frames_.legend()) painter.legend(*frames_.legend(), options_.side_by_side);
-    write_png(options_.output, painter.finish());
+    if (drawn_ < in_sheet_.size()) check_complete(position);
+    for (std::size_t i = drawn_ * across; i < cells_.size(); ++i) painter.clear(cells_[i]);
+    write_png(options_.output, finish(painter));
     files_ = {options_.output};
+  }
+
+  const Image& finish(PicturePainter& painter) const {
+    if (frames_.legend()) painter.legend(*frames_.legend(), options_.side_by_side);
+    painter.axes(cells_.back());
+    return painter.finish();
   }
 
   /// Draws the frame, after the reference where both are wanted.
@@ -192,7 +224,10 @@ class RenderJob {
   const RenderOptions& options_;
   OverlayFrames frames_;
   cli::ProgressBar bar_;
-  BoundingBox bounds_;
+  OrbitCamera camera_;
+  std::optional<ViewExtent> extent_;  // of what is drawn
+  std::vector<Cell> cells_;
+  std::vector<std::uint64_t> in_sheet_;  // which of the frames wanted; empty where that is no sheet
   bool surveyed_ = false;
   std::optional<std::uint64_t> count_;  // frames that are wanted
   std::uint64_t drawn_ = 0;

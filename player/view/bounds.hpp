@@ -4,12 +4,6 @@
 
 namespace tvg::player {
 
-/// The axis that points up in a sequence (metadata `up`).
-enum class UpAxis { kY, kZ };
-
-/// kZ where the metadata say so.
-UpAxis up_axis_of(const Metadata& metadata);
-
 /// Whether a mesh stands for a frame that shows nothing: one vertex and no faces (format-spec §4.3).
 inline bool shows_nothing(const Mesh& mesh) {
   return mesh.vertex_count <= 1 && mesh.faces.empty();

@@ -1,5 +1,6 @@
 #include "player/view/camera.hpp"
 
+#include "player/view/bounds.hpp"
 #include "tool/tool_error.hpp"
 
 #include <Eigen/Core>
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 
 constexpr double kFieldOfView =
     30 * std::numbers::pi / 180;  // vertical; little distortion, as portraits have
-constexpr double kMargin = 1.06;
+constexpr double kMargin = 1.06;  // what the picture has of what is shown
 constexpr double kMostZoom = 500;
 
 constexpr std::array<std::pair<std::string_view, ViewAngles>, 7> kNamedViews = {{
@@ -81,61 +82,30 @@ ViewAngles parse_view(const std::string& text) {
   return {std::remainder(*azimuth, 360), *elevation, *zoom};
 }
 
-struct OrbitCamera::Axes {
-  Vector3d right, up, backward;
-};
-
-OrbitCamera::Axes OrbitCamera::axes() const {
+CameraAxes OrbitCamera::axes() const {
   const double azimuth = radians(angles_.azimuth);
   const double elevation = radians(angles_.elevation);
-  // For y up; z up is the same turned by a quarter about x, so that the front still looks along the ground.
-  Axes axes{{std::cos(azimuth), 0, -std::sin(azimuth)},
-            {},
-            {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-             std::cos(azimuth) * std::cos(elevation)}};
-  axes.up = axes.backward.cross(axes.right);
-  if (up_ == UpAxis::kZ) {
-    for (Vector3d* axis : {&axes.right, &axes.up, &axes.backward}) {
-      *axis = Vector3d(axis->x(), -axis->z(), axis->y());
-    }
-  }
-  return axes;
+  const Vector3d to_right = vector(orientation_.right().vector());
+  const Vector3d to_front = vector(orientation_.front().vector());
+  const Vector3d upwards = vector(orientation_.up().vector());
+  const Vector3d right = std::cos(azimuth) * to_right - std::sin(azimuth) * to_front;
+  const Vector3d backward =
+      std::cos(elevation) * (std::sin(azimuth) * to_right + std::cos(azimuth) * to_front) +
+      std::sin(elevation) * upwards;
+  return {array(right), array(backward.cross(right)), array(backward)};
 }
 
-void OrbitCamera::fit(const BoundingBox& bounds, UpAxis up) {
-  up_ = up;
-  center_ = target_ = bounds.center();
-  radius_ = view_radius(bounds);
-  fitted_distance_ = 0;
+ViewExtent OrbitCamera::extent(double aspect) const {
+  const double slope = std::tan(kFieldOfView / 2) / kMargin;
+  return {axes(), slope * aspect, slope};
 }
 
-void OrbitCamera::fit_closely(const BoundingBox& bounds, UpAxis up, double aspect) {
-  fit(bounds, up);
-  const Axes at = axes();
-  const double slope_y = std::tan(kFieldOfView / 2) / kMargin;
-  const double slope_x = slope_y * aspect;
-  const Vector3d center = vector(center_);
-  // A corner (x, y, z) seen from the distance d is in the picture where |x - x0| <= slope * (d - z); the two
-  // planes that bound it on either side give the middle and the distance.
-  Eigen::Vector2d low(INFINITY, INFINITY);
-  Eigen::Vector2d high(-INFINITY, -INFINITY);
-  double nearest = -INFINITY;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3d point = Vector3d((corner & 1) != 0 ? bounds.high()[0] : bounds.low()[0],
-                                    (corner & 2) != 0 ? bounds.high()[1] : bounds.low()[1],
-                                    (corner & 4) != 0 ? bounds.high()[2] : bounds.low()[2]) -
-                           center;
-    const double z = point.dot(at.backward);
-    const Eigen::Vector2d on_screen(point.dot(at.right), point.dot(at.up));
-    const Eigen::Vector2d reach(slope_x * z, slope_y * z);
-    low = low.cwiseMin(on_screen - reach);
-    high = high.cwiseMax(on_screen + reach);
-    nearest = std::max(nearest, z);
-  }
-  const Eigen::Vector2d middle = (low + high) / 2;
-  const Eigen::Vector2d half = (high - low) / 2;
-  target_ = array(center + middle.x() * at.right + middle.y() * at.up);
-  fitted_distance_ = std::max({half.x() / slope_x, half.y() / slope_y, nearest + radius_ / 20});
+void OrbitCamera::fit(const ViewExtent& extent) {
+  center_ = extent.bounds().center();
+  radius_ = view_radius(extent.bounds());
+  const ViewExtent::Placement placement = extent.place();
+  target_ = placement.target;
+  fitted_distance_ = placement.distance;
 }
 
 void OrbitCamera::set_angles(const ViewAngles& angles) {
@@ -148,32 +118,27 @@ void OrbitCamera::orbit(double azimuth, double elevation) {
 }
 
 void OrbitCamera::pan(double right, double up) {
-  const Axes at = axes();
-  const double height = 2 * std::tan(kFieldOfView / 2) * distance(1);
-  target_ = array(vector(target_) - height * (right * at.right + up * at.up));
+  const CameraAxes at = axes();
+  const double height = 2 * std::tan(kFieldOfView / 2) * distance();
+  target_ = array(vector(target_) - height * (right * vector(at.right) + up * vector(at.up)));
 }
 
 void OrbitCamera::zoom_by(double factor) {
   angles_.zoom = std::clamp(angles_.zoom * factor, 1 / kMostZoom, kMostZoom);
 }
 
-double OrbitCamera::distance(double aspect) const {
-  if (fitted_distance_ > 0) return fitted_distance_ / angles_.zoom;
-  const double narrow = std::atan(std::tan(kFieldOfView / 2) * std::min(1.0, aspect));
-  return kMargin * radius_ / std::sin(narrow) / angles_.zoom;
-}
-
 CameraMatrices OrbitCamera::matrices(double aspect) const {
-  const Axes at = axes();
-  const double away = distance(aspect);
-  const Vector3d eye = vector(target_) + away * at.backward;
+  const CameraAxes at = axes();
+  const double away = distance();
+  const Vector3d eye = vector(target_) + away * vector(at.backward);
   CameraMatrices result{};
   Eigen::Map<Eigen::Matrix4f> view(result.view.data());
   view.setIdentity();
-  view.block<1, 3>(0, 0) = at.right.cast<float>();
-  view.block<1, 3>(1, 0) = at.up.cast<float>();
-  view.block<1, 3>(2, 0) = at.backward.cast<float>();
-  view.block<3, 1>(0, 3) = -Vector3d(at.right.dot(eye), at.up.dot(eye), at.backward.dot(eye)).cast<float>();
+  Eigen::Index row = 0;
+  for (const std::array<double, 3>& axis : {at.right, at.up, at.backward}) {
+    view.block<1, 3>(row, 0) = vector(axis).transpose().cast<float>();
+    view(row++, 3) = static_cast<float>(-vector(axis).dot(eye));
+  }
 
   const double to_center = (eye - vector(center_)).norm();
   const double far = to_center + 8 * radius_;  // the grid reaches beyond the box

@@ -1,5 +1,6 @@
 #pragma once
-#include "player/view/bounds.hpp"
+#include "player/view/orientation.hpp"
+#include "player/view/view_extent.hpp"
 
 #include <array>
 #include <string>
@@ -37,16 +38,18 @@ struct CameraMatrices {
 /// A perspective camera on a sphere around the middle of what is shown.
 class OrbitCamera {
  public:
-  /// Takes in what is shown: the distance is such that its bounding sphere fits at zoom 1, from everywhere.
-  /// Angles and zoom stay, panning is undone.
-  void fit(const BoundingBox& bounds, UpAxis up);
-  /// fit(), then nearer and to the side until the box itself fills most of a picture of this aspect from the
-  /// present angles at zoom 1.
-  void fit_closely(const BoundingBox& bounds, UpAxis up, double aspect);
-
   void set_angles(const ViewAngles& angles);
   const ViewAngles& angles() const { return angles_; }
-  UpAxis up() const { return up_; }
+  void set_orientation(const Orientation& orientation) { orientation_ = orientation; }
+  const Orientation& orientation() const { return orientation_; }
+
+  CameraAxes axes() const;
+  /// To be shown what fit() is to take in, in a picture of this aspect, as long as angles and orientation
+  /// stay.
+  ViewExtent extent(double aspect) const;
+  /// Stands so that at zoom 1 the points of an extent fill the picture but for a small margin. Angles and
+  /// zoom stay, panning is undone.
+  void fit(const ViewExtent& extent);
 
   /// Moves around the middle by degrees; elevation stops at the poles.
   void orbit(double azimuth, double elevation);
@@ -58,16 +61,14 @@ class OrbitCamera {
   CameraMatrices matrices(double aspect) const;
 
  private:
-  struct Axes;  // right, up and backward in the space of the sequence
-  Axes axes() const;
-  double distance(double aspect) const;
+  double distance() const { return fitted_distance_ / angles_.zoom; }
 
   ViewAngles angles_;
-  UpAxis up_ = UpAxis::kY;
+  Orientation orientation_;
   std::array<double, 3> center_{};  // of the bounding sphere
   std::array<double, 3> target_{};
   double radius_ = 1;
-  double fitted_distance_ = 0;  // 0: as the bounding sphere needs it
+  double fitted_distance_ = 1;
 };
 
 }  // namespace tvg::player

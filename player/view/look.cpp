@@ -30,6 +30,13 @@ Overlay parse_overlay(const std::string& text) {
   cli::fail_option("--overlay", text, "write none, importance, cost or error");
 }
 
+std::optional<AxisDirection> parse_direction(const char* option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::optional<AxisDirection> direction = parse_axis_direction(text);
+  if (!direction) cli::fail_option(option, text, "write +X, -X, +Y, -Y, +Z or -Z");
+  return direction;
+}
+
 /// "#rrggbb"
 std::optional<cli::Colour> parse_colour(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return std::nullopt;
@@ -82,6 +89,10 @@ Look parse_look(const LookArguments& arguments) {
   }
   std::tie(look.width, look.height) = *size;
   if (!arguments.camera.empty()) look.angles = parse_view(arguments.camera);
+  look.orientation.up = parse_direction("--up", arguments.up);
+  look.orientation.front = parse_direction("--front", arguments.front);
+  if (look.orientation.up) static_cast<void>(look.orientation.of({}));  // refuses a front that is up
+  look.axes = arguments.axes;
   look.overlay = parse_overlay(arguments.overlay);
   look.reference = arguments.reference;
   if (look.overlay == Overlay::kError && look.reference.empty()) {

@@ -23,8 +23,11 @@ struct LookArguments {
   std::vector<std::string> reference;
   std::string shading;
   std::string background;
+  std::string up;
+  std::string front;
   bool wireframe = false;
   bool grid = false;
+  bool axes = false;
   bool plain = false;
 };
 
@@ -33,6 +36,8 @@ struct Look {
   int width = 1280;  ///< pixels
   int height = 720;
   ViewAngles angles;
+  ChosenOrientation orientation;
+  bool axes = false;  ///< which way x, y and z go is shown in a corner
   Overlay overlay = Overlay::kNone;
   cli::SourceOpener open_source;       ///< opens a reference that is no .tvg
   std::vector<std::string> reference;  ///< inputs of the sequence to compare with; empty where there is none

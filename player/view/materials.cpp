@@ -1,6 +1,7 @@
 #include "player/view/materials.hpp"
 
 #include "player/view/picture_file.hpp"
+#include "tool/percent_decoded.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,25 +44,12 @@ float number(const json& value, float otherwise) {
   return std::isfinite(given) ? given : otherwise;
 }
 
-/// %20 and the like in a URI.
-std::string without_escapes(const std::string& uri) {
-  std::string path;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    if (uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) != 0 &&
-        std::isxdigit(static_cast<unsigned char>(uri[i + 2])) != 0) {
-      path += static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      path += uri[i] == '\\' ? '/' : uri[i];
-    }
-  }
-  return path;
-}
-
 /// A file of the folder or below; nothing for one elsewhere, and where it cannot be read.
 std::vector<std::uint8_t> read_beside(const std::string& folder, const std::string& uri) {
   std::error_code error;
-  const fs::path name = without_escapes(uri);
+  std::string decoded = cli::percent_decoded(uri);
+  std::ranges::replace(decoded, '\\', '/');
+  const fs::path name = decoded;
   if (folder.empty() || name.is_absolute() || std::ranges::count(name, fs::path("..")) > 0) return {};
   const fs::path path = fs::path(folder) / name;
   if (!fs::is_regular_file(path, error) || fs::file_size(path, error) > kMostFileBytes || error) return {};

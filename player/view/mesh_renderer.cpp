@@ -73,6 +73,19 @@ void set_colour(GLint place, const cli::Colour& colour) {
   glUniform3f(place, colour.red, colour.green, colour.blue);
 }
 
+void set_vector(GLint place, const AxisDirection& direction) {
+  const std::array<double, 3> vector = direction.vector();
+  glUniform3f(place, static_cast<float>(vector[0]), static_cast<float>(vector[1]),
+              static_cast<float>(vector[2]));
+}
+
+/// A direction of the sequence as the camera sees it.
+void set_direction(GLint place, const CameraMatrices& matrices, const AxisDirection& direction) {
+  const float* const column = matrices.view.data() + 4 * direction.axis;
+  const auto sign = static_cast<float>(direction.sign);
+  glUniform3f(place, sign * column[0], sign * column[1], sign * column[2]);
+}
+
 /// 1, 2 or 5 times a power of ten, near `length`.
 double round_length(double length) {
   const double power = std::pow(10, std::floor(std::log10(length)));
@@ -144,13 +157,14 @@ void MeshRenderer::set_surface(std::shared_ptr<const Surface> surface) {
   glBindVertexArray(0);
 }
 
-void MeshRenderer::set_scene(const BoundingBox& bounds, UpAxis up) {
+void MeshRenderer::set_scene(const BoundingBox& bounds, const Orientation& orientation) {
   scene_ = bounds;
-  up_ = up;
+  orientation_ = orientation;
 }
 
 void MeshRenderer::set_frame(std::span<const float> positions, std::span<const float> normals,
-                             std::span<const float> values, cli::ColourMap map) {
+                             std::span<const float> values, cli::ColourMap map,
+                             std::span<const float> colours) {
   const std::size_t coordinates = 3 * std::size_t{vertex_count_};
   const bool is_nothing = vertex_count_ <= 1 && face_count_ == 0;  // as shows_nothing() has it
   has_frame_ = !is_nothing && positions.size() >= coordinates;
@@ -159,7 +173,7 @@ void MeshRenderer::set_frame(std::span<const float> positions, std::span<const f
   has_values_ = values.size() >= vertex_count_;
   shows_surface_ = surface_ != nullptr && !has_values_;
   if (shows_surface_) {
-    surface_frame_.set(*surface_, positions);
+    surface_frame_.set(*surface_, positions, colours);
     positions = surface_frame_.positions();
     if (has_normals_) normals = surface_frame_.normals();
   } else {
@@ -170,6 +184,10 @@ void MeshRenderer::set_frame(std::span<const float> positions, std::span<const f
   stream(positions_, positions);
   if (has_normals_) stream(normals_, normals);
   if (has_values_) stream(values_, values.first(vertex_count_));
+  if (shows_surface_ && !surface_frame_.colours().empty()) {
+    stream(vertex_colours_, surface_frame_.colours());
+    glEnableVertexAttribArray(kColourAttribute);
+  }
   set_attribute(kNormalAttribute, has_normals_);
   set_attribute(kValueAttribute, has_values_);
   glBindVertexArray(0);
@@ -253,8 +271,7 @@ void MeshRenderer::draw_mesh(const CameraMatrices& matrices, const Style& style,
   glUseProgram(program.program.get());
   glUniformMatrix4fv(program.view, 1, GL_FALSE, matrices.view.data());
   glUniformMatrix4fv(program.projection, 1, GL_FALSE, matrices.projection.data());
-  const std::size_t up_column = up_ == UpAxis::kY ? 4 : 8;
-  glUniform3fv(program.up, 1, matrices.view.data() + up_column);
+  set_direction(program.up, matrices, orientation_.up());
   set_colour(program.surface, style.surface);
   glUniform2f(program.half_viewport, static_cast<float>(viewport.width) / 2,
               static_cast<float>(viewport.height) / 2);
@@ -287,7 +304,7 @@ void MeshRenderer::draw_runs(const MeshProgram& program, const Style& style) {
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_faces_.get());
   for (const Surface::Run& run : surface_->runs) {
     ShownMaterial material = run.material;
-    if (run.is_plain && surface_->colours.empty()) {
+    if (run.is_plain && surface_->colours.empty() && surface_frame_.colours().empty()) {
       const cli::Colour& plain = style.surface;
       material.factor = {plain.red * plain.red, plain.green * plain.green, plain.blue * plain.blue, 1};
     }
@@ -308,14 +325,15 @@ void MeshRenderer::use_material(const MeshProgram& program, const ShownMaterial&
 void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style, const Viewport& viewport) {
   const GLuint program = grid_.get();
   const auto place = [program](const char* name) { return glGetUniformLocation(program, name); };
-  const bool y_up = up_ == UpAxis::kY;
-  const std::size_t up = y_up ? 1 : 2;
-  const std::size_t across = y_up ? 2 : 1;
+  const AxisDirection upwards = orientation_.up();
+  const std::size_t up = upwards.axis;
+  const std::size_t along = up == 0 ? 1 : 0;
+  const std::size_t across = up == 2 ? 1 : 2;
   const double radius = view_radius(scene_);
   const double cell = round_length(radius / 6);
   std::array<double, 3> center = scene_.center();
   // A hair below what stands on it, so that flat feet do not flicker.
-  center[up] = scene_.low()[up] - 0.002 * radius;
+  center[up] = (upwards.sign > 0 ? scene_.low() : scene_.high())[up] - upwards.sign * 0.002 * radius;
   const auto phase = [&](std::size_t axis) {
     return static_cast<float>(std::remainder(center[axis] / cell, 10.0));
   };
@@ -324,12 +342,12 @@ void MeshRenderer::draw_grid(const CameraMatrices& matrices, const Style& style,
   glUniformMatrix4fv(place("projection"), 1, GL_FALSE, matrices.projection.data());
   glUniform3f(place("center"), static_cast<float>(center[0]), static_cast<float>(center[1]),
               static_cast<float>(center[2]));
-  glUniform3f(place("along"), 1, 0, 0);
-  glUniform3f(place("across"), 0, y_up ? 0.0F : 1.0F, y_up ? 1.0F : 0.0F);
+  set_vector(place("along"), AxisDirection{along, 1});
+  set_vector(place("across"), AxisDirection{across, 1});
   glUniform1f(place("reach"), static_cast<float>(4 * radius));
   glUniform1f(place("cell"), static_cast<float>(cell));
-  glUniform2f(place("phase"), phase(0), phase(across));
-  glUniform3fv(place("ground_normal"), 1, matrices.view.data() + 4 * up);
+  glUniform2f(place("phase"), phase(along), phase(across));
+  set_direction(place("ground_normal"), matrices, upwards);
   // Lines of a pixel weigh more in a small picture.
   const float strength = std::clamp(static_cast<float>(viewport.height) / 720, 0.35F, 1.0F);
   const bool dark = style.background_bottom.green < 0.45F;

@@ -42,15 +42,18 @@ class MeshRenderer {
   /// Nothing is drawn until set_frame().
   void set_mesh(const Mesh& mesh, std::shared_ptr<const Surface> surface = nullptr);
 
-  /// What the ground grid lies under and how wide it is: the box of all that will be shown.
-  void set_scene(const BoundingBox& bounds, UpAxis up);
+  /// What the ground grid lies under and how wide it is: the box of all that will be shown, and how it
+  /// stands.
+  void set_scene(const BoundingBox& bounds, const Orientation& orientation);
 
   /// The frame to draw. `positions` and `normals`: [vertex][xyz]; a normal of length 0 takes that of its
   /// face. `normals` may be empty, which draws flat. `values`: [vertex], 0 to 1, the colour of each vertex by
   /// `map`, or empty for the style's colour. All are copied to the driver at once; no memory is allocated
   /// here.
+  /// `colours`: as SurfaceFrame::set() has them.
   void set_frame(std::span<const float> positions, std::span<const float> normals,
-                 std::span<const float> values = {}, cli::ColourMap map = cli::ColourMap::kViridis);
+                 std::span<const float> values = {}, cli::ColourMap map = cli::ColourMap::kViridis,
+                 std::span<const float> colours = {});
 
   /// Draws background, mesh and grid; what was in the viewport before is gone.
   void draw(const OrbitCamera& camera, const Style& style, const Viewport& viewport);
@@ -97,7 +100,7 @@ class MeshRenderer {
   bool has_values_ = false;
   int colours_shown_ = -1;  // the map in colours_
   BoundingBox scene_;
-  UpAxis up_ = UpAxis::kY;
+  Orientation orientation_;
 };
 
 }  // namespace tvg::player

@@ -12,13 +12,26 @@ namespace {
 
 constexpr std::size_t kNone = SIZE_MAX;
 
-/// Which attribute is the nth of its kind that does not change with frames.
-std::size_t attribute_of(const MeshProperties& properties, AttributeKind kind, std::size_t nth = 0) {
+/// Which attribute is the nth of its kind that does not change with frames, or that does.
+std::size_t attribute_of(const MeshProperties& properties, AttributeKind kind, std::size_t nth = 0,
+                         bool animated = false) {
   for (std::size_t i = 0; i < properties.attributes.size(); ++i) {
     const Attribute& attribute = properties.attributes[i];
-    if (attribute.kind == kind && !attribute.animated && nth-- == 0) return i;
+    if (attribute.kind == kind && attribute.animated == animated && nth-- == 0) return i;
   }
   return kNone;
+}
+
+/// Values ([value][component]) for each render vertex, by the value it has, so many numbers of each; where
+/// there are fewer, numbers stay as they are.
+void spread_values(std::span<const std::uint32_t> indices, std::span<const float> values,
+                   std::size_t components, std::size_t wanted, std::span<float> target) {
+  const std::size_t numbers = std::min(components, wanted);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    const std::size_t first = components * std::size_t{indices[i]};
+    if (indices[i] == RenderView::kNoValue || first + components > values.size()) continue;
+    for (std::size_t c = 0; c < numbers; ++c) target[wanted * i + c] = values[first + c];
+  }
 }
 
 /// The values of an attribute for each render vertex, so many numbers of each; `otherwise` where there are
@@ -27,13 +40,8 @@ std::vector<float> values_of(const RenderView& view, const MeshProperties& prope
                              std::size_t components, float otherwise) {
   if (which == kNone) return {};
   const Attribute& attribute = properties.attributes[which];
-  const std::span<const std::uint32_t> indices = view.value_indices(which);
   std::vector<float> values(components * view.vertex_count(), otherwise);
-  for (std::size_t i = 0; i < indices.size(); ++i) {
-    if (indices[i] == RenderView::kNoValue) continue;
-    for (std::size_t c = 0; c < std::min<std::size_t>(components, attribute.components); ++c)
-      values[components * i + c] = attribute.values[attribute.components * std::size_t{indices[i]} + c];
-  }
+  spread_values(view.value_indices(which), attribute.values, attribute.components, components, values);
   return values;
 }
 
@@ -80,9 +88,12 @@ std::shared_ptr<const Surface> make_surface(const Mesh& mesh, const MeshProperti
   const auto has_material = [&](const Part& part) { return materials.find(part.material) != nullptr; };
   const bool has_materials = std::ranges::any_of(properties.parts, has_material);
   const std::size_t colours = attribute_of(properties, AttributeKind::kColour);
+  const std::size_t frame_colours =
+      colours == kNone ? attribute_of(properties, AttributeKind::kColour, 0, true) : kNone;
+  const bool has_colours = colours != kNone || frame_colours != kNone;
   const bool has_edges = attribute_of(properties, AttributeKind::kNormal) != kNone;
   const bool has_looks = has_materials || has_edges;
-  if (colours == kNone && (mesh.faces.empty() || !has_looks)) return nullptr;
+  if (!has_colours && (mesh.faces.empty() || !has_looks)) return nullptr;
   Result<RenderView> view = RenderView::of(mesh, properties);
   if (!view) return nullptr;
   auto surface = std::make_shared<Surface>();
@@ -98,11 +109,14 @@ std::shared_ptr<const Surface> make_surface(const Mesh& mesh, const MeshProperti
       surface->texcoords[i] = 1 - surface->texcoords[i];
   }
   surface->colours = values_of(surface->view, properties, colours, 4, 1);
+  if (frame_colours != kNone)
+    surface->frame_colours = {frame_colours, properties.attributes[frame_colours].components};
   make_groups(*surface, properties);
   return surface;
 }
 
-void SurfaceFrame::set(const Surface& surface, std::span<const float> positions) {
+void SurfaceFrame::set(const Surface& surface, std::span<const float> positions,
+                       std::span<const float> colours) {
   const std::span<const std::uint32_t> sources = surface.view.source_vertices();
   positions_.resize(3 * sources.size());
   normals_.resize(3 * sources.size());
@@ -117,6 +131,10 @@ void SurfaceFrame::set(const Surface& surface, std::span<const float> positions)
   for (std::size_t i = 0; i < sources.size(); ++i)
     std::copy_n(group_normals_.begin() + 3 * static_cast<std::ptrdiff_t>(surface.groups[i]), 3,
                 normals_.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  colours_.assign(colours.empty() || !surface.frame_colours ? 0 : 4 * sources.size(), 1);
+  if (colours_.empty()) return;
+  spread_values(surface.view.value_indices(surface.frame_colours->attribute), colours,
+                surface.frame_colours->components, 4, colours_);
 }
 
 }  // namespace tvg::player

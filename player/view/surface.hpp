@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,13 @@ struct Surface {
 
   RenderView view;
   std::vector<Run> runs;
-  std::vector<float> colours;    ///< [render vertex][rgba], sRGB; empty without
+  std::vector<float> colours;  ///< [render vertex][rgba], sRGB; empty without, and where frames have them
+  /// The mesh's attribute that is the colour where each frame has its own: its place, and its components.
+  struct FrameColours {
+    std::size_t attribute = 0;
+    std::uint32_t components = 0;
+  };
+  std::optional<FrameColours> frame_colours;
   std::vector<float> texcoords;  ///< [render vertex][uv], v from the picture's top; empty without
   /// Vertices that share a normal: [render vertex], its group, and the view's faces by groups.
   std::vector<std::uint32_t> groups;
@@ -42,13 +49,16 @@ class SurfaceFrame {
  public:
   /// `positions`: [vertex][xyz]. Normals are those of the faces around each vertex, up to where the stream's
   /// normals part.
-  void set(const Surface& surface, std::span<const float> positions);
+  /// `colours`: of Surface::frame_colours, [value][component].
+  void set(const Surface& surface, std::span<const float> positions, std::span<const float> colours = {});
 
   std::span<const float> positions() const { return positions_; }  ///< [render vertex][xyz]
   std::span<const float> normals() const { return normals_; }      ///< [render vertex][xyz]
+  /// [render vertex][rgba]; empty where the surface's own go.
+  std::span<const float> colours() const { return colours_; }
 
  private:
-  std::vector<float> positions_, normals_, group_positions_, group_normals_;
+  std::vector<float> positions_, normals_, colours_, group_positions_, group_normals_;
 };
 
 }  // namespace tvg::player

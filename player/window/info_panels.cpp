@@ -101,14 +101,14 @@ void draw_info(const PlayerSnapshot& player, const InterfaceFacts& facts) {
   ImGui::End();
 }
 
-void draw_chart(const PlayerSnapshot& player, const InterfaceFacts& facts, float bottom) {
+float draw_chart(const PlayerSnapshot& player, const InterfaceFacts& facts, float bottom) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const float unit = ImGui::GetFontSize();
   const ImVec2 corner = {kMargin, bottom - 6 * unit};
   const ImVec2 end = {size.x - kMargin, bottom - 0.6F * unit};
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   list.AddRectFilled(corner, end, theme::kPanel, 9);
-  if (facts.packets.empty()) return;
+  if (facts.packets.empty()) return corner.y;
   std::uint64_t most = 1;
   for (const FrameBytes& packet : facts.packets) most = std::max(most, packet.bytes);
   const std::string caption = fmt::format("bits per frame, up to {}", cli::readable_bytes(most));
@@ -125,6 +125,7 @@ void draw_chart(const PlayerSnapshot& player, const InterfaceFacts& facts, float
     const ImU32 colour = packet.frame == player.frame ? theme::kAccent : theme::kDecoded;
     list.AddRectFilled({x, floor - height}, {x + std::max(1.0F, step - 1), floor}, colour);
   }
+  return corner.y;
 }
 
 void draw_help() {
@@ -135,7 +136,7 @@ void draw_help() {
       if (binding.keys[0] != '\0') row(binding.keys, binding.text);
     }
     row("drag", "turn; with Shift or the right button: move; wheel: zoom");
-    row("drop", "a file on the window opens it");
+    row("drop", "a file or a link on the window opens it");
     ImGui::EndTable();
   }
   ImGui::End();

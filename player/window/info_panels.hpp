@@ -7,8 +7,8 @@ namespace tvg::player {
 /// What the stream is and how playing goes, in the upper right corner.
 void draw_info(const PlayerSnapshot& player, const InterfaceFacts& facts);
 /// Bits of the frames around the one shown, as a strip of bars over the controls, `bottom` pixels from the
-/// top.
-void draw_chart(const PlayerSnapshot& player, const InterfaceFacts& facts, float bottom);
+/// top. Returns where the strip begins.
+float draw_chart(const PlayerSnapshot& player, const InterfaceFacts& facts, float bottom);
 /// Keys and what they do.
 void draw_help();
 /// Why nothing moves, in the middle: opening, buffering, or an error.

@@ -1,5 +1,6 @@
 #include "player/window/interface.hpp"
 
+#include "player/view/axes_gizmo.hpp"
 #include "player/window/info_panels.hpp"
 #include "player/window/scrub_bar.hpp"
 #include "player/window/theme.hpp"
@@ -138,6 +139,13 @@ float draw_transport(const PlayerSnapshot& player, const InterfaceFacts& facts, 
   return top;
 }
 
+void draw_axes_above(float bottom, const CameraAxes& camera) {
+  const float size = ImGui::GetFontSize();
+  const float inwards = axes_reach(size) + 0.8F * size;
+  draw_axes(*ImGui::GetBackgroundDrawList(), camera,
+            {ImGui::GetIO().DisplaySize.x - inwards, bottom - inwards, size}, true);
+}
+
 }  // namespace
 
 InterfaceRequests draw_interface(const PlayerSnapshot* player, const InterfaceFacts& facts,
@@ -146,11 +154,13 @@ InterfaceRequests draw_interface(const PlayerSnapshot* player, const InterfaceFa
   if (player == nullptr) {
     draw_welcome();
   } else {
+    float bottom = ImGui::GetIO().DisplaySize.y;
     if (settings.interface) {
-      const float bottom = draw_transport(*player, facts, settings, requests);
+      bottom = draw_transport(*player, facts, settings, requests);
       if (settings.info) draw_info(*player, facts);
-      if (settings.chart) draw_chart(*player, facts, bottom);
+      if (settings.chart) bottom = draw_chart(*player, facts, bottom);
     }
+    if (settings.axes) draw_axes_above(bottom, facts.camera);
     if (facts.legend) {
       const float size = ImGui::GetFontSize();
       draw_legend(*ImGui::GetBackgroundDrawList(), {14, 14, size}, *facts.legend);

@@ -15,6 +15,8 @@ namespace tvg::player {
 struct ViewSettings {
   Style style;
   Overlay overlay = Overlay::kNone;
+  bool axes = false;
+  bool plain = false;     ///< one colour, whatever the stream says of its surface
   bool interface = true;  ///< anything but the mesh
   bool info = true;
   bool chart = false;
@@ -26,6 +28,7 @@ struct InterfaceFacts {
   std::string name;    ///< of the stream; empty where none is open
   std::string notice;  ///< a passing line, such as where a picture was saved
   std::optional<Legend> legend;
+  CameraAxes camera;
   double draw_ms = 0;  ///< mean of the pictures drawn lately
   double shown_per_second = 0;
   bool has_reference = false;

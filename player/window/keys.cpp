@@ -26,6 +26,8 @@ constexpr std::array kBindings = {
     KeyBinding{GLFW_KEY_D, 0, Action::kShading, "D", "smooth or flat shading"},
     KeyBinding{GLFW_KEY_E, 0, Action::kWireframe, "E", "edges"},
     KeyBinding{GLFW_KEY_G, 0, Action::kGrid, "G", "ground grid"},
+    KeyBinding{GLFW_KEY_X, 0, Action::kAxes, "X", "which way x, y and z go"},
+    KeyBinding{GLFW_KEY_C, 0, Action::kPlain, "C", "colours and textures, or one colour"},
     KeyBinding{GLFW_KEY_F, 0, Action::kFitView, "F", "fit the view to the frame"},
     KeyBinding{GLFW_KEY_ENTER, 0, Action::kFitView, "", ""},
     KeyBinding{GLFW_KEY_1, 0, Action::kFrontView, "1", "look from the front"},

@@ -20,6 +20,8 @@ enum class Action {
   kWireframe,
   kOverlay,
   kGrid,
+  kAxes,
+  kPlain,
   kFitView,
   kFrontView,
   kRightView,

@@ -1,3 +1,4 @@
+#include "player/window/named_location.hpp"
 #include "player/window/play_session.hpp"
 #include "tool/tool_error.hpp"
 
@@ -22,6 +23,12 @@ void PlaySession::open(const std::string& location) {
   } catch (const cli::ToolError& error) {
     notify(error.what());
   }
+}
+
+void PlaySession::paste() {
+  const std::string location = named_location(window_.clipboard());
+  if (location.empty()) return notify("the clipboard holds no path and no URL");
+  open(location);
 }
 
 void PlaySession::set_overlay(Overlay overlay) {
@@ -76,9 +83,8 @@ void PlaySession::act(Action action) {
 
 bool PlaySession::act_on_view(Action action) {
   const auto look_from = [this](const char* view) {
-    ViewAngles angles = parse_view(view);
-    angles.zoom = camera_.angles().zoom;
-    camera_.set_angles(angles);
+    camera_.set_angles(parse_view(view));
+    fit_view();
   };
   switch (action) {
     case Action::kShading:
@@ -88,6 +94,10 @@ bool PlaySession::act_on_view(Action action) {
       return view_.style.wireframe = !view_.style.wireframe, true;
     case Action::kGrid:
       return view_.style.grid = !view_.style.grid, true;
+    case Action::kAxes:
+      return view_.axes = !view_.axes, true;
+    case Action::kPlain:
+      return toggle_plain(), true;
     case Action::kInfo:
       return view_.info = !view_.info, true;
     case Action::kChart:
@@ -113,12 +123,19 @@ bool PlaySession::act_on_view(Action action) {
     case Action::kScreenshot:
       return wants_picture_ = true, true;
     case Action::kPaste:
-      return open(window_.clipboard()), true;
+      return paste(), true;
     case Action::kQuit:
       return window_.close(), true;
     default:
       return false;
   }
+}
+
+void PlaySession::toggle_plain() {
+  view_.plain = !view_.plain;
+  if (frame_ == nullptr) return;
+  send_mesh();
+  send_frame();
 }
 
 void PlaySession::act_on_player(Action action, double now) {

@@ -22,7 +22,7 @@ constexpr double kNoticeSeconds = 3;
 PlaySession::PlaySession(const PlayOptions& options, Stopwatch watch, std::unique_ptr<StreamInput> input)
     : options_(options),
       watch_(watch),
-      view_{options.style, options.overlay},
+      view_{options.style, options.overlay, options.axes, options.plain},
       window_(options.width, options.height, "tvg", !options.screenshot.empty(), events()) {
   camera_.set_angles(options.angles);
   if (input != nullptr) use(std::move(input));
@@ -47,7 +47,7 @@ void PlaySession::use(std::unique_ptr<StreamInput> input) {
   PlayerOptions options;
   options.loader.ring_bytes = options_.memory_bytes;
   options.loader.lod = options_.lod;
-  options.loader.surfaces = !options_.plain;
+  options.loader.surfaces = true;
   std::error_code ignored;
   if (std::filesystem::is_regular_file(name_, ignored)) options.loader.folder = folder_of({name_});
   options.playing = !options_.paused && options_.screenshot.empty();
@@ -90,17 +90,35 @@ void PlaySession::show(std::shared_ptr<const PlayerFrame> frame) {
   frame_ = std::move(frame);
   is_new_ = true;
   if (frame_->mesh != mesh_ || frame_->surface != surface_) {
-    if (mesh_ == nullptr && !options_.shading_is_given)
-      view_.style.shading = shading_of(player_->snapshot().stream.metadata);
+    if (mesh_ == nullptr) begin_stream(player_->snapshot().stream.metadata);
     const bool is_other = mesh_ != frame_->mesh;
-    const bool is_first = mesh_ == nullptr;
     mesh_ = frame_->mesh;
     surface_ = frame_->surface;
-    renderer_.set_mesh(*mesh_, surface_);
-    if (is_first) fitted_ = {};
+    send_mesh();
     if (is_other && !is_in_view()) fit_view();
   }
-  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, colour_map_of(view_.overlay));
+  send_frame();
+}
+
+/// What a stream's metadata say of its looks, unless the user has said otherwise.
+void PlaySession::begin_stream(const Metadata& metadata) {
+  if (!options_.shading_is_given) view_.style.shading = shading_of(metadata);
+  try {
+    camera_.set_orientation(options_.orientation.of(metadata));
+  } catch (const cli::ToolError& error) {
+    notify(error.what());
+    camera_.set_orientation(Orientation(up_of(metadata)));
+  }
+  fitted_ = {};
+}
+
+void PlaySession::send_mesh() {
+  renderer_.set_mesh(*mesh_, view_.plain ? nullptr : surface_);
+}
+
+void PlaySession::send_frame() {
+  renderer_.set_frame(frame_->positions, frame_->normals, frame_->values, colour_map_of(view_.overlay),
+                      frame_->colours);
 }
 
 /// Whether the view need not move for the frame: each frame of a captured volume has a mesh of its own, and
@@ -116,14 +134,12 @@ bool PlaySession::is_in_view() const {
 
 void PlaySession::fit_view() {
   if (frame_ == nullptr) return;
-  const UpAxis up = up_axis_of(player_->snapshot().stream.metadata);
-  BoundingBox bounds;
-  bounds.extend(frame_->positions);
-  renderer_.set_scene(bounds, up);
-  fitted_ = bounds;
-  bounds.pad(0.12 * view_radius(bounds));  // frames to come move about
-  const double aspect = static_cast<double>(window_.width()) / std::max(1, window_.height());
-  camera_.fit_closely(bounds, up, aspect);
+  ViewExtent extent = camera_.extent(static_cast<double>(window_.width()) / std::max(1, window_.height()));
+  extent.extend(frame_->positions);
+  fitted_ = extent.bounds();
+  renderer_.set_scene(fitted_, camera_.orientation());
+  extent.pad(0.12 * view_radius(fitted_));  // frames to come move about
+  camera_.fit(extent);
 }
 
 void PlaySession::draw(double now) {
@@ -159,6 +175,7 @@ InterfaceFacts PlaySession::facts(double now) const {
     if (notice_.empty()) facts.notice = decorator_->problem();
     if (view_.overlay == Overlay::kError) facts.legend->units = short_units(snapshot_.stream.metadata);
   }
+  facts.camera = camera_.axes();
   facts.draw_ms = figures_.mean_draw_ms();
   facts.shown_per_second = figures_.shown_per_second(now);
   facts.has_reference = !options_.reference.empty();

@@ -39,6 +39,7 @@ class PlaySession {
  private:
   WindowEvents events();
   void open(const std::string& location);
+  void paste();
   void use(std::unique_ptr<StreamInput> input);
   void set_overlay(Overlay overlay);
   std::shared_ptr<OverlayDecorator> make_decorator(Overlay overlay) const;
@@ -49,6 +50,9 @@ class PlaySession {
   /// Asks the player for the frame to show now.
   void look(double now);
   void show(std::shared_ptr<const PlayerFrame> frame);
+  void begin_stream(const Metadata& metadata);
+  void send_mesh();
+  void send_frame();
   bool is_in_view() const;
   void fit_view();
   void draw(double now);
@@ -58,6 +62,7 @@ class PlaySession {
   void save_picture(const std::string& path);
   void follow(const InterfaceRequests& requests);
   void act(Action action);
+  void toggle_plain();
   /// False where the action is none of these.
   bool act_on_view(Action action);
   void act_on_player(Action action, double now);

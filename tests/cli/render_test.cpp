@@ -132,6 +132,27 @@ TEST_F(Render, DrawsMaterialsTexturesAndColours) {
   EXPECT_NE(without.err.find("texture half.png: not there"), std::string::npos) << without.err;
 }
 
+TEST_F(Render, DrawsTheColoursThatEachFrameHas) {
+  const std::array<std::string, 3> rgb = {" 1 0 0", " 0 1 0", " 0 0 1"};
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    std::string text;
+    for (const char* const corner : {"0 0 0", "1 0 0", "1 1 0", "0 1 0"})
+      text += "v " + std::string(corner) + rgb[frame] + "\n";
+    folder_.write("c_" + std::to_string(frame) + ".obj", text + "f 1 2 3 4\n");
+  }
+  good("tvg encode c_0.obj c_1.obj c_2.obj -o c.tvg -q");
+  good("tvg render c.tvg -o tvg_%d.png --size 64x64 --camera front -q");
+  good("tvg render c_0.obj c_1.obj c_2.obj -o obj_%d.png --size 64x64 --camera front -q");
+  for (std::ptrdiff_t frame = 0; frame < 3; ++frame) {
+    for (const std::string kind : {"tvg_", "obj_"}) {
+      const player::Image drawn = picture(kind + std::to_string(frame) + ".png");
+      const std::uint8_t* const middle = drawn.pixel(32, 32);
+      EXPECT_EQ(std::max_element(middle, middle + 3) - middle, frame) << kind;
+      EXPECT_LT(*std::min_element(middle, middle + 3), 110) << kind << frame << ": a colour, and not clay";
+    }
+  }
+}
+
 TEST_F(Render, MakesOneSheetOfSeveralFrames) {
   good("tvg render hand.tvg -o sheet.png --size 320x240 -q");
   good("tvg render hand.tvg -o sheet2.png --size 320x240 --sheet 2x1 -q");

@@ -4,6 +4,7 @@
 #include "tool/tool_error.hpp"
 
 #include <algorithm>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace tvg::player {
@@ -180,6 +181,20 @@ TEST_F(Colours, ImportanceIsYesOrNo) {
   expected[7] = 1;
   EXPECT_EQ(values, expected);
   EXPECT_EQ(colours->legend().map, cli::ColourMap::kFlags);
+}
+
+TEST_F(Colours, ImportanceTellsWhatShareTheStreamMarks) {
+  OverlayFrame marked = frame(0);
+  const auto words = [&marked](const std::vector<std::uint8_t>& flags) {
+    const auto colours = make_overlay_colours({Overlay::kImportance, {}, nullptr});
+    marked.flags = flags;
+    std::vector<float> values;
+    colours->colour(marked, values);
+    return colours->legend().flagged;
+  };
+  EXPECT_THAT(words({1, 0, 0, 0}), ::testing::HasSubstr("(fine lattice), 25 %"));
+  EXPECT_THAT(words({0, 0, 0, 0}), ::testing::HasSubstr(" 0 %"));
+  EXPECT_THAT(words({1, 1, 1, 1}), ::testing::HasSubstr("one lattice"));
 }
 
 TEST_F(Colours, NoOverlayHasNone) {

@@ -23,8 +23,7 @@ Sequence corpus_sequence(std::string_view name, std::uint32_t vertices) {
 Image draw(const Sequence& sequence, const ShownFrame& frame, const Style& style,
            cli::ColourMap map = cli::ColourMap::kViridis) {
   PicturePainter painter(kWidth, kHeight, style, false);
-  const BoundingBox bounds = bounds_of(sequence);
-  painter.set_scene(bounds, UpAxis::kY, camera_for(bounds, static_cast<double>(kWidth) / kHeight));
+  painter.set_scene(bounds_of(sequence), camera_for(sequence, static_cast<double>(kWidth) / kHeight));
   painter.begin();
   painter.draw(frame, PicturePainter::Which::kShown, map, {0, 0, kWidth, kHeight});
   return painter.finish();
@@ -87,9 +86,7 @@ Image draw_sheet() {
   const Sequence hand = corpus_sequence("hand", 1600);
   PicturePainter painter(kWidth, kHeight, {}, false);
   const std::vector<Cell> cells = sheet_cells(kWidth, kHeight, 3, 2);
-  const BoundingBox bounds = bounds_of(hand);
-  painter.set_scene(bounds, UpAxis::kY,
-                    camera_for(bounds, static_cast<double>(cells[0].width) / cells[0].height));
+  painter.set_scene(bounds_of(hand), camera_for(hand, static_cast<double>(cells[0].width) / cells[0].height));
   painter.begin();
   const std::vector<std::uint64_t> chosen = spread_evenly(kFrames, cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -99,11 +96,51 @@ Image draw_sheet() {
   return painter.finish();
 }
 
-constexpr std::array<StoredPicture, 6> kPictures = {{{"smooth", draw_smooth},
+/// A hand that lies on its side, on the ground below it, and the axes without letters, which fonts differ in.
+Image draw_axes() {
+  const Sequence hand = corpus_sequence("hand", 1600);
+  Style style;
+  style.grid = true;
+  OrbitCamera camera;
+  camera.set_orientation({{0, -1}, {2, 1}});
+  ViewExtent extent = camera.extent(static_cast<double>(kWidth) / kHeight);
+  extent.extend(hand.frames[5]);
+  camera.fit(extent);
+  PicturePainter painter(kWidth, kHeight, style, false, true);
+  painter.set_scene(extent.bounds(), camera);
+  painter.begin();
+  const Cell whole = {0, 0, kWidth, kHeight};
+  painter.draw(shown_frame(hand, 5), PicturePainter::Which::kShown, cli::ColourMap::kViridis, whole);
+  painter.axes(whole);
+  return painter.finish();
+}
+
+/// A cloth by colours of the frame, red to green from the first vertex to the last, and some blue.
+Image draw_frame_colours() {
+  const Sequence cloth = corpus_sequence("cloth", 800);
+  MeshProperties properties;
+  Attribute colours;
+  colours.kind = AttributeKind::kColour;
+  colours.components = 3;
+  colours.animated = true;
+  colours.values.assign(3 * std::size_t{cloth.mesh.vertex_count}, 0);
+  properties.attributes = {colours};
+  ShownFrame frame = shown_frame(cloth, 3);
+  frame.surface = make_surface(cloth.mesh, properties, {});
+  for (std::uint32_t v = 0; v < cloth.mesh.vertex_count; ++v) {
+    const float share = static_cast<float>(v) / static_cast<float>(cloth.mesh.vertex_count);
+    frame.colours.insert(frame.colours.end(), {1 - share, share, v % 40 == 0 ? 1.0F : 0.0F});
+  }
+  return draw(cloth, frame, {});
+}
+
+constexpr std::array<StoredPicture, 8> kPictures = {{{"smooth", draw_smooth},
                                                      {"flat", draw_flat},
                                                      {"wireframe", draw_wireframe},
                                                      {"importance", draw_importance},
                                                      {"cost", draw_cost},
+                                                     {"axes", draw_axes},
+                                                     {"colours", draw_frame_colours},
                                                      {"sheet", draw_sheet}}};
 
 }  // namespace

@@ -21,9 +21,11 @@ inline ShownFrame shown_frame(const Sequence& sequence, std::size_t number) {
 }
 
 /// The camera of all test pictures: the whole sequence, seen from where users see it first.
-inline OrbitCamera camera_for(const BoundingBox& bounds, double aspect) {
+inline OrbitCamera camera_for(const Sequence& sequence, double aspect) {
   OrbitCamera camera;
-  camera.fit_closely(bounds, UpAxis::kY, aspect);
+  ViewExtent extent = camera.extent(aspect);
+  for (const FramePositions& frame : sequence.frames) extent.extend(frame);
+  camera.fit(extent);
   return camera;
 }
 

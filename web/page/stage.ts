@@ -165,6 +165,8 @@ function fitBox(
   const sides = [axes.right, axes.up];
   const low = [Infinity, Infinity];
   const high = [-Infinity, -Infinity];
+  const flatLow = [Infinity, Infinity];
+  const flatHigh = [-Infinity, -Infinity];
   let nearest = -Infinity;
   for (let corner = 0; corner < 8; ++corner) {
     const pick = (bit: number, axis: "x" | "y" | "z"): number => (corner & bit ? box.max : box.min)[axis];
@@ -172,12 +174,22 @@ function fitBox(
     const z = point.dot(axes.backward);
     nearest = Math.max(nearest, z);
     sides.forEach((side, i) => {
-      low[i] = Math.min(low[i]!, point.dot(side) - slopes[i]! * z);
-      high[i] = Math.max(high[i]!, point.dot(side) + slopes[i]! * z);
+      const place = point.dot(side);
+      low[i] = Math.min(low[i]!, place - slopes[i]! * z);
+      high[i] = Math.max(high[i]!, place + slopes[i]! * z);
+      flatLow[i] = Math.min(flatLow[i]!, place);
+      flatHigh[i] = Math.max(flatHigh[i]!, place);
     });
   }
-  const target = center.clone();
-  sides.forEach((side, i) => target.addScaledVector(side, (low[i]! + high[i]!) / 2));
   const distances = slopes.map((slope, i) => (high[i]! - low[i]!) / 2 / slope);
-  return { target, distance: Math.max(...distances, nearest + 1e-6) };
+  const distance = Math.max(...distances, nearest + 1e-6);
+  const target = center.clone();
+  sides.forEach((side, i) => {
+    // Where there is room left, the middle is about that of planes that are less steep, as ViewExtent has it.
+    const flatHalf = (flatHigh[i]! - flatLow[i]!) / 2;
+    const steepness = flatHalf / (distance - distances[i]! + flatHalf / slopes[i]!) / slopes[i]!;
+    const [flat, steep] = [(flatLow[i]! + flatHigh[i]!) / 2, (low[i]! + high[i]!) / 2];
+    target.addScaledVector(side, flat + (steep - flat) * (steepness || 0));
+  });
+  return { target, distance };
 }
