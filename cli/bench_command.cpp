@@ -37,6 +37,9 @@ void run_bench(const BenchArguments& arguments) {
   const BenchPlan plan = plan_bench(arguments);
   const std::vector<BenchInput> inputs = group_inputs(arguments.inputs);
   check_outputs(arguments, inputs);
+  for (const std::string& name : plan.codecs.missing) {
+    if (!arguments.quiet) fmt::print(stderr, "note: {} is left out: this tvg was built without it\n", name);
+  }
   std::optional<AtomicFile> csv, plot;
   if (!arguments.csv.empty()) csv.emplace(arguments.csv).write(bench_csv_header());
   if (!arguments.plot.empty()) plot.emplace(arguments.plot);
@@ -87,13 +90,12 @@ void add_bench_command(CLI::App& tool) {
   command
       .add_option("--mode", arguments->modes, "modes of TVG: some of elp, basis and lossless, as elp,basis")
       ->capture_default_str();
-  command
-      .add_option(
-          "--codecs", arguments->codecs,
-          fmt::format("what is measured: some of {}, as tvg,meshopt. Those of others get the integers of the "
-                      "lattice, where all vertices have the same, of at most {} bits",
-                      codec_names(), bench::kMostLatticeBits))
-      ->capture_default_str();
+  command.add_option(
+      "--codecs", arguments->codecs,
+      fmt::format("what is measured: some of {} (default: tvg,draco,meshopt, as far as they are built in). "
+                  "Others get the integers of the lattice, where it is one for all vertices and has at most "
+                  "{} bits",
+                  codec_names(), bench::kMostLatticeBits));
   add_measure_options(command, arguments->measure);
   add_mode_options(command, *arguments);
   add_effort_options(command, *arguments);
