@@ -6,12 +6,13 @@ namespace tvg::cli {
 
 /// The inputs of one animation, as `tvg encode` takes them.
 struct BenchInput {
-  std::string name;                ///< "crane" of crane.obj and crane.pc2
+  /// "crane" of crane.obj and crane.pc2; its first file where others would be called the same.
+  std::string name;
   std::vector<std::string> files;  ///< not empty
 };
 
 /// Which of the inputs are one animation: a cache goes with the mesh of its name, else with the mesh before
-/// it, else with the one after it; all others are one each. Names are unique. Throws ToolError (kUsage) where
+/// it, else with the one after it; all others are one each. Throws ToolError (kUsage) where
 /// several are frames of one sequence.
 std::vector<BenchInput> group_inputs(const std::vector<std::string>& inputs);
 

@@ -137,7 +137,9 @@ TEST_F(BenchTest, EachAnimationHasItsRows) {
   good(
       "mkdir a b && cp hand.pc2 a/x.pc2 && tvg decode -q \"$(tvg encode -q cloth.obj -o c.tvg; echo c.tvg)\" "
       "-o b/c_%04d.obj");
-  EXPECT_THAT(animations("b hand.obj a/x.pc2 c.tvg b/c_%04d.obj"), ElementsAre("b", "hand", "c", "c"));
+  // Names that would be the same are told apart by their files.
+  EXPECT_THAT(animations("b hand.obj a/x.pc2 c.tvg b/c_%04d.obj"),
+              ElementsAre("b", "hand", "c.tvg", "b/c_%04d.obj"));
   const std::string table = good("tvg bench hand.obj cloth.obj --bits 9 --mode elp,lossless --runs 1").out;
   EXPECT_THAT(table, HasSubstr("hand: 394 vertices, 784 faces, 12 frames"));
   EXPECT_THAT(table, HasSubstr("cloth: "));
