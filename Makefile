@@ -3,7 +3,7 @@
 # and LINT_CHECKS what is added to its checks or, with a minus, left out; OPTIONS go to CMake.
 WERROR ?= OFF
 FUZZ_SECONDS ?= 60
-LINT = libcodec tool encoder decoder player server cli
+LINT = libcodec tool encoder decoder player server codecs cli
 LINT_CHECKS ?=
 OPTIONS ?=
 # Configurations of scripts/check_portability.sh; all where empty.

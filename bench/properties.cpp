@@ -1,4 +1,4 @@
-#include "bench/in_memory.hpp"
+#include "codecs/in_memory.hpp"
 #include "encoder/importers/open_source.hpp"
 #include "tool/tool_error.hpp"
 

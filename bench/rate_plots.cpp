@@ -1,7 +1,7 @@
-#include "bench/other_codecs.hpp"
 #include "bench/published_rates.hpp"
 #include "bench/rates.hpp"
 #include "bench/sequences.hpp"
+#include "codecs/other_codecs.hpp"
 #include "tool/atomic_file.hpp"
 #include "tool/line_plot.hpp"
 

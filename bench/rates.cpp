@@ -1,8 +1,8 @@
 #include "bench/rates.hpp"
 
-#include "bench/in_memory.hpp"
 #include "bench/sequences.hpp"
-#include "bench/timing.hpp"
+#include "codecs/in_memory.hpp"
+#include "codecs/timing.hpp"
 
 #include <cmath>
 #include <span>

@@ -1,5 +1,6 @@
 #pragma once
-#include "bench/other_codecs.hpp"
+#include "codecs/errors.hpp"
+#include "codecs/lattice_sequence.hpp"
 
 #include <string>
 #include <vector>
@@ -26,21 +27,5 @@ NamedSequence load(const std::string& folder, const std::string& name);
 
 /// The first `count` frames, or all there are.
 Sequence first_frames(const Sequence& sequence, std::size_t count);
-
-/// The lattice of the format: index = floor((x - minimum) / step), step = largest extent / 2^bits over all
-/// frames.
-struct Lattice {
-  LatticeSequence indices;
-  double minimum[3] = {};
-  double step = 0;
-
-  /// Every index as the centre of its cell, [frame][vertex][xyz].
-  std::vector<FramePositions> centres() const;
-};
-
-Lattice quantize(const Sequence& sequence, int bits);
-
-/// The figures of `tvg compare`.
-ComparisonReport compare(const Sequence& original, const std::vector<FramePositions>& decoded);
 
 }  // namespace tvg::bench

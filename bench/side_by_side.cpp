@@ -1,7 +1,7 @@
-#include "bench/other_codecs.hpp"
 #include "bench/rate_rows.hpp"
 #include "bench/sequences.hpp"
 #include "bench/tvg_codec.hpp"
+#include "codecs/other_codecs.hpp"
 #include "corpus/corpus.hpp"
 
 #include <CLI/CLI.hpp>
@@ -105,9 +105,9 @@ void print_codecs(const NamedSequence& named, int bits) {
   print_codec(ours.codec, lattice.indices, compare(named.sequence, ours.frames));
   const ComparisonReport errors = compare(named.sequence, lattice.centres());
   CodecResult draco;
-  for (const auto run : {run_draco, run_meshoptimizer, run_meshoptimizer_zstd, run_zstd_deltas}) {
-    const CodecResult result = run(lattice.indices);
-    if (run == run_draco) draco = result;
+  for (const OtherCodec& codec : other_codecs()) {
+    const CodecResult result = codec.run(lattice.indices, kUsualRuns);
+    if (codec.run == run_draco) draco = result;
     print_codec(result, lattice.indices, errors);
   }
   std::printf("  decoding: %.1f times Draco's speed\n", draco.decode_seconds / ours.codec.decode_seconds);

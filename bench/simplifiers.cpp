@@ -1,6 +1,6 @@
 #include "bench/other_simplifiers.hpp"
 #include "bench/sequences.hpp"
-#include "bench/timing.hpp"
+#include "codecs/timing.hpp"
 #include "corpus/corpus.hpp"
 #include "tool/atomic_file.hpp"
 #include "tool/line_plot.hpp"

@@ -1,7 +1,7 @@
 #include "bench/tvg_codec.hpp"
 
-#include "bench/in_memory.hpp"
-#include "bench/timing.hpp"
+#include "codecs/in_memory.hpp"
+#include "codecs/timing.hpp"
 
 #include <tvg/encoder.hpp>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "bench/other_codecs.hpp"
+#include "codecs/other_codecs.hpp"
 
 #include <cstdint>
 #include <vector>

@@ -29,6 +29,9 @@ void add_play_command(CLI::App& tool);
 void add_render_command(CLI::App& tool);
 void add_serve_command(CLI::App& tool);
 
+// The command that measures what streams make of animations, beside other codecs: codecs/.
+void add_bench_command(CLI::App& tool);
+
 /// Help by name; also manual pages and shells' completions, made from what the commands say of themselves.
 /// `tool` has to outlive the parsing.
 void add_help_command(CLI::App& tool);

@@ -100,15 +100,7 @@ void add_coding_options(CLI::App& command, EncodeArguments& arguments) {
                   "period shares, for far smaller files")
       ->check(CLI::IsMember({"elp", "basis"}))
       ->capture_default_str();
-  command.add_option("--period", arguments.period,
-                     "in mode basis: frames that share planes, or all; more make smaller files that take "
-                     "longer to begin (default 128; with --live the GOP)");
-  command
-      .add_option("--predictor", arguments.predictor,
-                  "what vertices are predicted from: elp as the paper has it, pyramid for "
-                  "smaller files, auto for the smaller of the two in each frame")
-      ->check(CLI::IsMember({"space", "time", "elp", "pyramid", "auto"}))
-      ->capture_default_str();
+  add_mode_options(command, arguments);
   const std::vector<CLI::Option*> choices = command.get_options();
   auto* lossless = command.add_flag(
       "--lossless", arguments.lossless,
@@ -165,9 +157,19 @@ EncodeOptions encode_options(const EncodeArguments& arguments) {
   return options;
 }
 
-void add_encode_options(CLI::App& command, EncodeArguments& arguments, const std::string& others) {
-  add_input_options(command, arguments, others);
-  add_coding_options(command, arguments);
+void add_mode_options(CLI::App& command, EncodeArguments& arguments) {
+  command.add_option("--period", arguments.period,
+                     "in mode basis: frames that share planes, or all; more make smaller files that take "
+                     "longer to begin (default 128; with --live the GOP)");
+  command
+      .add_option("--predictor", arguments.predictor,
+                  "what vertices are predicted from: elp as the paper has it, pyramid for "
+                  "smaller files, auto for the smaller of the two in each frame")
+      ->check(CLI::IsMember({"space", "time", "elp", "pyramid", "auto"}))
+      ->capture_default_str();
+}
+
+void add_effort_options(CLI::App& command, EncodeArguments& arguments) {
   command
       .add_option(
           "--effort", arguments.effort,
@@ -178,6 +180,12 @@ void add_encode_options(CLI::App& command, EncodeArguments& arguments, const std
       .add_option("--gop", arguments.gop,
                   "frames that can be decoded on their own (default 50; in mode basis 32; with --live 15)")
       ->check(CLI::Range(1, 65536));
+}
+
+void add_encode_options(CLI::App& command, EncodeArguments& arguments, const std::string& others) {
+  add_input_options(command, arguments, others);
+  add_coding_options(command, arguments);
+  add_effort_options(command, arguments);
   add_level_options(command, arguments.levels);
   add_property_options(command, arguments);
   auto* reorder = command.add_flag("--reorder", arguments.reorder,

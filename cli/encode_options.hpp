@@ -49,6 +49,12 @@ struct EncodeArguments : InputArguments {
 /// inputs.
 void add_encode_options(CLI::App& command, EncodeArguments& arguments, const std::string& others = "");
 
+/// Declares what a mode leaves to choose: --period and --predictor.
+void add_mode_options(CLI::App& command, EncodeArguments& arguments);
+
+/// Declares --effort and --gop.
+void add_effort_options(CLI::App& command, EncodeArguments& arguments);
+
 /// What the options mean; reads the file of --weights. Throws ToolError (kUsage) that shows what would be
 /// right.
 EncodeOptions encode_options(const EncodeArguments& arguments);

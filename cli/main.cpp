@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   add_join_command(tool);
   add_ladder_command(tool);
   add_page_command(tool);
+  add_bench_command(tool);
 #ifdef TVG_HAS_PLAYER
   use_remote_opener(tvg::player::open_remote_input);
   add_play_command(tool);
@@ -43,7 +44,9 @@ int main(int argc, char** argv) {
 #endif
   add_help_command(tool);
   for (CLI::App* command : tool.get_subcommands([](CLI::App*) { return true; })) {
-    if (command->get_option_no_throw("--output") == nullptr) continue;
+    if (command->get_option_no_throw("--output") == nullptr &&
+        command->get_option_no_throw("--csv") == nullptr)
+      continue;
     command->add_flag_callback("-f,--force", tvg::cli::overwrite_without_asking,
                                "replace files without asking; only a terminal is asked");
   }

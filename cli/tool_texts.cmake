@@ -1,9 +1,9 @@
 # The tool's manual pages (compressed, as Debian has them) and completions, made from its own help and installed with it.
 find_program(TVG_GZIP gzip)
-set(commands encode decode info verify compare measure simplify plan join ladder page help)
-if(TVG_BUILD_PLAYER)
-  list(APPEND commands play render serve)
-endif()
+# Every command is a file of its own, NAME_command.cpp.
+get_target_property(commands tvg_tool SOURCES)
+list(FILTER commands INCLUDE REGEX "_command\\.cpp$")
+list(TRANSFORM commands REPLACE "_command\\.cpp$" "")
 set(texts ${CMAKE_CURRENT_BINARY_DIR}/texts)
 file(MAKE_DIRECTORY ${texts})
 

@@ -1,7 +1,7 @@
 #include "bench/measure/experiment.hpp"
 
-#include "bench/in_memory.hpp"
 #include "bench/sequences.hpp"
+#include "codecs/in_memory.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@ import unittest
 
 import numpy as np
 import tvg
-from toolbox import PROJECT, grid, wave, write_obj
+from toolbox import PROJECT, grid, wave, write_obj, write_pc2
 
 PACKAGE = PROJECT / "python"
 
@@ -101,18 +101,49 @@ class Library(unittest.TestCase):
 
 
 class Scripts(unittest.TestCase):
+    def rate_distortion(self, *arguments, **environment):
+        """What the example prints, line by line."""
+        script = [sys.executable, str(PACKAGE / "examples" / "rate_distortion.py"), *arguments]
+        environment = {**os.environ, "TVG_DATA_DIR": "", **environment}
+        result = subprocess.run(script, check=True, capture_output=True, text=True, env=environment)
+        return result.stdout.splitlines()
+
     def test_the_rate_distortion_example_makes_its_table_and_plot(self):
         with tempfile.TemporaryDirectory() as folder:
             mesh, positions = os.path.join(folder, "a.obj"), os.path.join(folder, "a.npy")
             write_obj(mesh, wave(1)[0], grid())
             np.save(positions, wave(8))
-            script = [sys.executable, str(PACKAGE / "examples" / "rate_distortion.py"), mesh, positions]
-            for more, lines in (
-                (["--table1"], 12),
-                (["--bits", "9-10", "--plot", os.path.join(folder, "a.svg")], 7),
-            ):
-                output = subprocess.run(script + more, check=True, capture_output=True, text=True).stdout
-                self.assertEqual(len(output.splitlines()), lines, output)
+            table = self.rate_distortion(mesh, positions, "--table1")
+            self.assertEqual(len([line for line in table if line.startswith("|")]), 12, table)
+            self.assertIn("Table 1: a, first 8 frames", table[0])
+            drawing = os.path.join(folder, "a.svg")
+            curves = self.rate_distortion(mesh, positions, "--bits", "9..10", "--plot", drawing)
+            rows = [line.replace(" ", "").split("|")[1:-1] for line in curves if line.startswith("|")]
+            settings = [["elp", "9"], ["elp", "10"], ["basis", "9"], ["basis", "10"]]
+            self.assertEqual([fields[:2] for fields in rows[2:]], settings)
+            self.assertEqual(os.path.exists(drawing), importlib.util.find_spec("matplotlib") is not None)
+            self.assertLess(float(rows[3][5]), float(rows[2][5]))  # KG error falls with bits
+            stream = tvg.encode(wave(8), grid(), bits=9)
+            self.assertEqual(int(rows[2][2]), len(stream))
+
+    def test_the_rate_distortion_example_takes_a_folder_and_knows_the_papers_sequence(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, frames in (("chicken", 6), ("other", 4)):
+                write_obj(os.path.join(folder, name + ".obj"), wave(1)[0], grid())
+                write_pc2(os.path.join(folder, name + ".pc2"), wave(frames))
+            for arguments, environment in (([folder], {}), ([], {"TVG_DATA_DIR": folder})):
+                lines = self.rate_distortion(*arguments, "--bits", "8", **environment)
+                self.assertIn("Table 1: chicken, first 6 frames", lines[0])
+                self.assertIn("paper, KB", lines[2])
+                self.assertIn("| 13:11 | 15 % | 154.8 |", "\n".join(lines))
+                self.assertIn("chicken: 144 vertices, 6 frames", lines)
+                self.assertIn("other: 144 vertices, 4 frames", lines)
+
+    @unittest.skipUnless(os.environ.get("TVG_CORPUS"), "TVG_CORPUS is not set")
+    def test_the_rate_distortion_example_does_without_data(self):
+        lines = self.rate_distortion("--bits", "8", "--frames", "3")
+        self.assertIn("the project's own", lines[0])
+        self.assertTrue(any(line.startswith("hand: ") for line in lines), lines)
 
     def test_info_prints_what_a_file_is(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -8,18 +8,6 @@
 namespace tvg::cli::testing {
 namespace {
 
-/// The commands that `tvg help` lists.
-std::vector<std::string> listed_commands(const std::string& help) {
-  std::istringstream lines(help.substr(help.find("Subcommands:")));
-  std::vector<std::string> commands;
-  std::string line;
-  std::getline(lines, line);
-  while (std::getline(lines, line) && line.rfind("  ", 0) == 0) {
-    if (line[2] != ' ') commands.push_back(line.substr(2, line.find(' ', 2) - 2));
-  }
-  return commands;
-}
-
 /// "--bits" and the like, as `--help` lists them in its first column.
 std::vector<std::string> listed_options(const std::string& help) {
   std::vector<std::string> options;
@@ -33,7 +21,7 @@ std::vector<std::string> listed_options(const std::string& help) {
 }
 
 TEST_F(ToolTest, HelpOfACommandIsWhatTheCommandSaysOfItself) {
-  const std::vector<std::string> commands = listed_commands(good("tvg help").out);
+  const std::vector<std::string> commands = listed_commands();
   ASSERT_GT(commands.size(), 9u);
   for (const std::string& command : commands)
     EXPECT_EQ(good("tvg help " + command).out, good("tvg " + command + " --help").out) << command;
@@ -63,9 +51,8 @@ TEST_F(ToolTest, AMistypedWordIsAnsweredWithTheOneThatWasMeant) {
 }
 
 TEST_F(ToolTest, EveryCommandHasAManualPageWithAllItsOptions) {
-  const std::string help = good("tvg help").out;
   const std::string all = good("tvg help --man").out;
-  for (const std::string& command : listed_commands(help)) {
+  for (const std::string& command : listed_commands()) {
     EXPECT_NE(all.find("\\fBtvg\\-" + command + "\\fR(1)"), std::string::npos) << command;
     const std::string page = good("tvg help --man " + command).out;
     EXPECT_EQ(page.rfind(".TH \"TVG-", 0), 0u) << command;
@@ -74,6 +61,14 @@ TEST_F(ToolTest, EveryCommandHasAManualPageWithAllItsOptions) {
       for (const char letter : option) escaped += letter == '-' ? "\\-" : std::string(1, letter);
       EXPECT_NE(page.find("\\fB" + escaped + "\\fR"), std::string::npos) << command << " " << option;
     }
+  }
+}
+
+/// Installed pages go by these files.
+TEST_F(ToolTest, EveryCommandIsAFileOfItsOwn) {
+  for (const std::string& command : listed_commands()) {
+    const std::string file = std::string(TVG_PROJECT) + "/cli/" + command + "_command.cpp";
+    EXPECT_TRUE(std::filesystem::exists(file)) << file;
   }
 }
 
@@ -96,7 +91,7 @@ TEST_F(ToolTest, CompletionsOfOtherShellsNameEveryCommand) {
   const std::string zsh = good("tvg help --completion zsh").out;
   const std::string fish = good("tvg help --completion fish").out;
   EXPECT_EQ(zsh.rfind("#compdef tvg\n", 0), 0u);
-  for (const std::string& command : listed_commands(good("tvg help").out)) {
+  for (const std::string& command : listed_commands()) {
     EXPECT_NE(zsh.find("'" + command + ":"), std::string::npos) << command;
     EXPECT_NE(fish.find("-a " + command + " -d "), std::string::npos) << command;
   }

@@ -65,13 +65,8 @@ TEST_F(ToolTest, TheManualShowsTheVelocityCriterionAsItIs) {
 
 TEST_F(ToolTest, TheManualNamesEveryCommandAndOptionAndNoOther) {
   const std::string page = read(std::string(TVG_PROJECT) + "/docs/commands.md");
-  std::vector<std::string> commands = {"encode",   "decode", "info",   "verify", "compare", "measure",
-                                       "simplify", "join",   "ladder", "page",   "help"};
-#ifdef TVG_HAS_PLAYER
-  commands.insert(commands.end(), {"play", "render", "serve"});
-#endif
   std::set<std::string> known = options_in(good("tvg --help").out);
-  for (const std::string& command : commands) {
+  for (const std::string& command : listed_commands()) {
     EXPECT_NE(page.find("`tvg " + command), std::string::npos) << command;
     for (const std::string& option : options_in(good("tvg " + command + " --help").out)) {
       known.insert(option);

@@ -8,8 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <sys/wait.h>
+#include <vector>
 
 namespace tvg::cli::testing {
 
@@ -61,6 +63,19 @@ class ToolTest : public ::testing::Test {
     nlohmann::json parsed = nlohmann::json::parse(result.out, nullptr, false);
     EXPECT_FALSE(parsed.is_discarded()) << command << "\n" << result.out << result.err;
     return parsed;
+  }
+
+  /// The commands that `tvg help` lists.
+  std::vector<std::string> listed_commands() const {
+    const std::string help = good("tvg help").out;
+    std::istringstream lines(help.substr(help.find("Subcommands:")));
+    std::vector<std::string> commands;
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line) && line.rfind("  ", 0) == 0) {
+      if (line[2] != ' ') commands.push_back(line.substr(2, line.find(' ', 2) - 2));
+    }
+    return commands;
   }
 
   /// Chunks of a type in a stream: offset and bytes of each.

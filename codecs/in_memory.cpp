@@ -1,19 +1,28 @@
-#include "bench/in_memory.hpp"
+#include "codecs/in_memory.hpp"
 
-#include <stdexcept>
+#include "tool/tool_error.hpp"
 
 #include <tvg/decoder.hpp>
 
 namespace tvg::bench {
 
-std::vector<std::uint8_t> encode_to_memory(FrameSource& source, const EncodeOptions& options) {
+namespace {
+
+[[noreturn]] void fail_decoding(const std::string& what) {
+  throw cli::ToolError(cli::ExitStatus::kOther, "decode: " + what);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_to_memory(FrameSource& source, const EncodeOptions& options,
+                                           const std::string& name, const EncodeProgress& progress) {
   std::vector<std::uint8_t> bytes;
   const auto append = [&bytes](std::span<const std::uint8_t> piece) {
     bytes.insert(bytes.end(), piece.begin(), piece.end());
     return Status();
   };
-  const Result<EncodeReport> report = encode(source, options, append);
-  if (!report) throw std::runtime_error("encode: " + report.error().describe());
+  const Result<EncodeReport> report = encode(source, options, append, progress);
+  if (!report) throw cli::tool_error(name, report.error());
   return bytes;
 }
 
@@ -28,13 +37,13 @@ void decode_from_memory(std::span<const std::uint8_t> bytes, std::vector<FramePo
         decoder.copy_positions(frames.at(decoded++).data());
         break;
       case Decoder::Event::kDamage:
-        throw std::runtime_error("decode: " + decoder.damage().error.describe());
+        throw cli::tool_error("decode", decoder.damage().error);
       case Decoder::Event::kError:
-        throw std::runtime_error("decode: " + decoder.error().describe());
+        throw cli::tool_error("decode", decoder.error());
       case Decoder::Event::kNeedBytes:
-        throw std::runtime_error("decode: the stream ends too early");
+        fail_decoding("the stream ends too early");
       case Decoder::Event::kEnd:
-        if (decoded != frames.size()) throw std::runtime_error("decode: frames are missing");
+        if (decoded != frames.size()) fail_decoding("frames are missing");
         return;
       default:
         break;

@@ -1,25 +1,13 @@
 #pragma once
-#include <cstddef>
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "codecs/lattice_sequence.hpp"
+#include "codecs/timing.hpp"
 
-#include <tvg/types.hpp>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace tvg::bench {
-
-/// A sequence on an integer lattice: what every codec of the comparison is given, so that all have the same
-/// error.
-struct LatticeSequence {
-  Mesh mesh;
-  int bits = 0;                                    ///< 1 to 16: every value is below 2^bits
-  std::vector<std::vector<std::uint16_t>> frames;  ///< [frame][vertex][xyz]
-
-  /// Vertices of all frames together: the unit of "million vertices per second".
-  double vertices() const {
-    return static_cast<double>(mesh.vertex_count) * static_cast<double>(frames.size());
-  }
-};
 
 /// One codec on one sequence, one thread; times as best_time() takes them.
 struct CodecResult {
@@ -31,20 +19,32 @@ struct CodecResult {
       false;  ///< the decoder gave back the lattice (for Draco: as a set, since it reorders vertices)
 };
 
+#ifdef TVG_HAS_DRACO
 /// Draco's edgebreaker at compression level 10 (speed 0), each frame a mesh of its own with integer
 /// positions. Vertex order and correspondence between frames are lost.
-CodecResult run_draco(const LatticeSequence& sequence);
+CodecResult run_draco(const LatticeSequence& sequence, int runs = kUsualRuns);
+#endif
 
 /// meshoptimizer's vertex codec on frame deltas (four int16 each, one of them padding), vertices in the order
 /// its strip and vertex fetch optimizers give, connectivity in its index codec. The original vertex order is
 /// lost.
-CodecResult run_meshoptimizer(const LatticeSequence& sequence);
+CodecResult run_meshoptimizer(const LatticeSequence& sequence, int runs = kUsualRuns);
 
 /// The same, its bytes compressed again by zstd at level 19.
-CodecResult run_meshoptimizer_zstd(const LatticeSequence& sequence);
+CodecResult run_meshoptimizer_zstd(const LatticeSequence& sequence, int runs = kUsualRuns);
 
 /// zstd at level 19 on zigzag int16 frame deltas, planes of low and of high bytes per coordinate and frame;
 /// vertex order is kept.
-CodecResult run_zstd_deltas(const LatticeSequence& sequence);
+CodecResult run_zstd_deltas(const LatticeSequence& sequence, int runs = kUsualRuns);
+
+/// A codec by the name that options have for it.
+struct OtherCodec {
+  std::string_view name;  ///< "draco"
+  CodecResult (*run)(const LatticeSequence& sequence,
+                     int runs);  ///< null where it was left out of this build
+};
+
+/// Every codec above.
+std::span<const OtherCodec> other_codecs();
 
 }  // namespace tvg::bench
