@@ -15,7 +15,11 @@ export TVG_PLAN=$plan
 array=$(sbatch --parsable --job-name=tvg-part --array="1-$parts" --requeue --export=ALL \
   --output="${logs//%/%%}.part-%a.log" "$@" <<'JOB'
 #!/bin/bash
-exec tvg encode --plan "$TVG_PLAN" --part "$SLURM_ARRAY_TASK_ID" --threads "${SLURM_CPUS_PER_TASK:-1}"
+tvg encode --plan "$TVG_PLAN" --part "$SLURM_ARRAY_TASK_ID" --threads "${SLURM_CPUS_PER_TASK:-1}"
+status=$?
+# What is killed from outside says nothing itself.
+[ $status -lt 128 ] || echo "part $SLURM_ARRAY_TASK_ID of $TVG_PLAN was killed by signal $((status - 128))"
+exit $status
 JOB
 )
 join=$(sbatch --parsable --job-name=tvg-join --dependency="afterok:$array" --kill-on-invalid-dep=yes --export=ALL \
