@@ -1,4 +1,4 @@
-#include "encoder/stream_encoder.hpp"
+#include "encoder/sequence_encoder.hpp"
 
 #include <memory>
 #include <utility>
@@ -7,9 +7,9 @@
 
 namespace tvg {
 
-class Encoder::State : public StreamEncoder {
+class Encoder::State : public SequenceEncoder {
  public:
-  using StreamEncoder::StreamEncoder;
+  using SequenceEncoder::SequenceEncoder;
 };
 
 Encoder::Encoder(EncodeOptions options, ByteSink sink, EncodeProgress progress)

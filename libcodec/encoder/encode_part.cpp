@@ -1,8 +1,8 @@
 #include "base/errors.hpp"
 #include "container/frame_data.hpp"
 #include "encoder/encode_checks.hpp"
+#include "encoder/sequence_encoder.hpp"
 #include "encoder/settled_options.hpp"
-#include "encoder/stream_encoder.hpp"
 #include "source/look_through.hpp"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ class PartEncoding {
                        std::uint64_t frames, std::optional<std::uint64_t>) { progress(frames, total); };
     }
     const bool with_shapes = needs_shape(options), with_joints = uses_skeleton(options.importance);
-    StreamEncoder encoder(options, sink, std::move(with_total));
+    SequenceEncoder encoder(options, sink, std::move(with_total));
     for (std::uint64_t frame = part_.first; frame <= part_.last; ++frame) {
       if (Status status = walk_.read(frame); !status.ok()) return status.error();
       FrameSource& source = walk_.source();

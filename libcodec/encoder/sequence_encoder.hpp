@@ -29,9 +29,9 @@ struct MeshPast {
 };
 
 /// Encoder (tvg/encoder.hpp), which takes a whole sequence or, told what came before, a part of one.
-class StreamEncoder {
+class SequenceEncoder {
  public:
-  StreamEncoder(EncodeOptions options, ByteSink sink, EncodeProgress progress);
+  SequenceEncoder(EncodeOptions options, ByteSink sink, EncodeProgress progress);
 
   /// As Encoder does, whose checks and errors are these.
   Status set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties);

@@ -1,4 +1,4 @@
-#include "encoder/stream_encoder.hpp"
+#include "encoder/sequence_encoder.hpp"
 
 #include "base/errors.hpp"
 #include "container/chunk.hpp"
@@ -51,7 +51,7 @@ bool holds(const BoundingBox& outer, const BoundingBox& inner) {
 }  // namespace
 
 /// What the GOPs of one mesh share, until the last of them is encoded.
-struct StreamEncoder::Stretch {
+struct SequenceEncoder::Stretch {
   Stretch(Mesh given, Skeleton joints, MeshProperties beside,
           std::shared_ptr<const EncodeOptions> encode_options)
       : options(std::move(encode_options)),
@@ -72,7 +72,7 @@ struct StreamEncoder::Stretch {
 };
 
 /// One GOP on its way: what is to be encoded, and what marks it.
-struct StreamEncoder::Job {
+struct SequenceEncoder::Job {
   GopContent gop;
   std::shared_ptr<const Stretch> stretch;
   Lattice lattice;
@@ -80,7 +80,7 @@ struct StreamEncoder::Job {
 };
 
 /// Algorithm 1, then the chunks.
-Result<EncodedRun> StreamEncoder::mark_and_encode(const Job& job) {
+Result<EncodedRun> SequenceEncoder::mark_and_encode(const Job& job) {
   GopInput input{.frames = job.gop.content->frames,
                  .values = job.gop.content->values,
                  .mode = job.stretch->options->mode,
@@ -100,7 +100,7 @@ Result<EncodedRun> StreamEncoder::mark_and_encode(const Job& job) {
   return encode_run(input, job.stretch->encoded.mesh, job.limits);
 }
 
-StreamEncoder::StreamEncoder(EncodeOptions options, ByteSink sink, EncodeProgress progress)
+SequenceEncoder::SequenceEncoder(EncodeOptions options, ByteSink sink, EncodeProgress progress)
     : options_(std::make_shared<const EncodeOptions>(with_step(std::move(options)))),
       progress_(std::move(progress)),
       writer_(std::move(sink)),
@@ -109,7 +109,8 @@ StreamEncoder::StreamEncoder(EncodeOptions options, ByteSink sink, EncodeProgres
   report_.box_of_each_gop = needs_box(*options_) && !options_->box && !options_->step;
 }
 
-Status StreamEncoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties) {
+Status SequenceEncoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton,
+                                 const MeshProperties& properties) {
   if (Status status = check_new_mesh(mesh, skeleton, properties, !stretch_); !status.ok()) return status;
   return lasting([&] {
     MeshProperties settled = with_settled_bits(properties, options_->attribute_bits);
@@ -121,8 +122,8 @@ Status StreamEncoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const
   });
 }
 
-Status StreamEncoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties,
-                               const MeshPast& past) {
+Status SequenceEncoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const MeshProperties& properties,
+                                 const MeshPast& past) {
   const bool leads = past.first_frame == 0;
   if (Status status = check_new_mesh(mesh, skeleton, properties, leads); !status.ok()) return status;
   return lasting([&] {
@@ -144,8 +145,8 @@ Status StreamEncoder::set_mesh(const Mesh& mesh, const Skeleton& skeleton, const
   });
 }
 
-Status StreamEncoder::add_frame(std::span<const float> positions, std::span<const float> joints,
-                                std::span<const std::span<const float>> values) {
+Status SequenceEncoder::add_frame(std::span<const float> positions, std::span<const float> joints,
+                                  std::span<const std::span<const float>> values) {
   BoundingBox frame_box;
   frame_box.extend(positions);
   if (Status status = check_new_frame(positions, joints, frame_box); !status.ok()) return status;
@@ -169,7 +170,7 @@ Status StreamEncoder::add_frame(std::span<const float> positions, std::span<cons
   });
 }
 
-Result<EncodeReport> StreamEncoder::finish() {
+Result<EncodeReport> SequenceEncoder::finish() {
   if (Status status = check_open(); !status.ok()) return status.error();
   if (!stretch_) return Error{ErrorCode::kWrongState, "there is no mesh yet"};
   if (frames_added() == first_frame_) return invalid_input("the sequence has no frames");
@@ -184,15 +185,15 @@ Result<EncodeReport> StreamEncoder::finish() {
   return report_;
 }
 
-Status StreamEncoder::check_open() const {
+Status SequenceEncoder::check_open() const {
   if (lost_) return *lost_;
   if (finished_) return Error{ErrorCode::kWrongState, "the stream is finished"};
   return {};
 }
 
 /// `leads`: this is the first mesh of the whole sequence.
-Status StreamEncoder::check_new_mesh(const Mesh& mesh, const Skeleton& skeleton,
-                                     const MeshProperties& properties, bool leads) const {
+Status SequenceEncoder::check_new_mesh(const Mesh& mesh, const Skeleton& skeleton,
+                                       const MeshProperties& properties, bool leads) const {
   if (Status status = check_open(); !status.ok()) return status;
   if (stretch_ && cutter_->frames() == 0)
     return Error{ErrorCode::kWrongState, "the mesh before this one has no frames"};
@@ -219,8 +220,8 @@ Status StreamEncoder::check_new_mesh(const Mesh& mesh, const Skeleton& skeleton,
   return check_importance(options_->importance, mesh, skeleton);
 }
 
-Status StreamEncoder::check_new_frame(std::span<const float> positions, std::span<const float> joints,
-                                      const BoundingBox& frame_box) const {
+Status SequenceEncoder::check_new_frame(std::span<const float> positions, std::span<const float> joints,
+                                        const BoundingBox& frame_box) const {
   if (Status status = check_open(); !status.ok()) return status;
   if (!stretch_) return Error{ErrorCode::kWrongState, "there is no mesh yet"};
   const std::uint64_t number = frames_added();
@@ -240,7 +241,7 @@ Status StreamEncoder::check_new_frame(std::span<const float> positions, std::spa
 }
 
 template <class Work>
-Status StreamEncoder::lasting(Work work) {
+Status SequenceEncoder::lasting(Work work) {
   Status status;
   try {
     lost_ = Error{ErrorCode::kIo, "the stream is lost: the sink did not come back"};
@@ -253,7 +254,7 @@ Status StreamEncoder::lasting(Work work) {
   return status;
 }
 
-Status StreamEncoder::write_start(const Stretch& first) {
+Status SequenceEncoder::write_start(const Stretch& first) {
   frame_bytes_ = std::max<std::uint64_t>(animated_frame_bytes_of(first.properties, first.mesh),
                                          options_->max_animated_frame_bytes);
   limits_ = limits_for(first.mesh, *options_, property_bytes_of(first.properties, first.mesh), frame_bytes_);
@@ -261,7 +262,7 @@ Status StreamEncoder::write_start(const Stretch& first) {
   return writer_.write_start(limits_, options_->metadata, options_->data);
 }
 
-Status StreamEncoder::begin_stretch(std::shared_ptr<Stretch> stretch, bool is_known, GopCutter cutter) {
+Status SequenceEncoder::begin_stretch(std::shared_ptr<Stretch> stretch, bool is_known, GopCutter cutter) {
   if (Status status = stretch_ ? flush() : write_start(*stretch); !status.ok()) return status;
   frames_before_ = frames_added();
   stretch_ = std::move(stretch);
@@ -270,8 +271,9 @@ Status StreamEncoder::begin_stretch(std::shared_ptr<Stretch> stretch, bool is_kn
   return is_known || needs_shape(*options_) ? Status() : write_mesh({});
 }
 
-std::shared_ptr<StreamEncoder::Stretch> StreamEncoder::in_force(const Mesh& mesh, const Skeleton& skeleton,
-                                                                const MeshProperties& properties) const {
+std::shared_ptr<SequenceEncoder::Stretch> SequenceEncoder::in_force(const Mesh& mesh,
+                                                                    const Skeleton& skeleton,
+                                                                    const MeshProperties& properties) const {
   const auto same = [&](const std::shared_ptr<Stretch>& known) {
     return known->mesh == mesh && known->skeleton == skeleton && known->properties == properties &&
            writer_.mesh_in_force(known->encoded.mesh.coded.id);
@@ -280,7 +282,7 @@ std::shared_ptr<StreamEncoder::Stretch> StreamEncoder::in_force(const Mesh& mesh
   return known == known_.end() ? nullptr : *known;
 }
 
-std::shared_ptr<StreamEncoder::Stretch> StreamEncoder::in_force(std::uint64_t shaped_by) const {
+std::shared_ptr<SequenceEncoder::Stretch> SequenceEncoder::in_force(std::uint64_t shaped_by) const {
   const auto same = [&](const std::shared_ptr<Stretch>& known) {
     return known->shaped_by == shaped_by && writer_.mesh_in_force(known->encoded.mesh.coded.id);
   };
@@ -288,7 +290,7 @@ std::shared_ptr<StreamEncoder::Stretch> StreamEncoder::in_force(std::uint64_t sh
   return known == known_.end() ? nullptr : *known;
 }
 
-Status StreamEncoder::write_mesh(std::span<const float> first_frame) {
+Status SequenceEncoder::write_mesh(std::span<const float> first_frame) {
   EncodedMesh connectivity = encode_mesh(stretch_->mesh, options_->keep_vertex_order,
                                          frames_before_ == 0 ? options_->levels.get() : nullptr);
   if (needs_shape(*options_)) {
@@ -316,7 +318,7 @@ Status StreamEncoder::write_mesh(std::span<const float> first_frame) {
   return writer_.write_mesh_chunk(write_chunk(kMeshChunk, false, payload));
 }
 
-Status StreamEncoder::enqueue(GopContent gop) {
+Status SequenceEncoder::enqueue(GopContent gop) {
   const BoundingBox gop_box = std::exchange(gop_box_, BoundingBox());
   const Result<Lattice> lattice =
       options_->mode == Mode::kLossless ? Lattice() : lattice_for(options_->box.value_or(gop_box));
@@ -329,7 +331,7 @@ Status StreamEncoder::enqueue(GopContent gop) {
   return {};
 }
 
-Status StreamEncoder::flush() {
+Status SequenceEncoder::flush() {
   if (std::optional<GopContent> gop = cutter_->flush()) {
     if (Status status = enqueue(std::move(*gop)); !status.ok()) return status;
   }
@@ -339,14 +341,14 @@ Status StreamEncoder::flush() {
   return {};
 }
 
-Status StreamEncoder::write_what_is_done() {
+Status SequenceEncoder::write_what_is_done() {
   while (std::optional<Result<EncodedRun>> done = queue_.take()) {
     if (Status status = write(std::move(done)); !status.ok()) return status;
   }
   return {};
 }
 
-Status StreamEncoder::write(std::optional<Result<EncodedRun>> done) {
+Status SequenceEncoder::write(std::optional<Result<EncodedRun>> done) {
   if (!done) return {};
   if (!*done) return done->error();
   const EncodedRun& run = **done;
@@ -363,7 +365,7 @@ Status StreamEncoder::write(std::optional<Result<EncodedRun>> done) {
   return {};
 }
 
-Result<Lattice> StreamEncoder::lattice_for(const BoundingBox& box) const {
+Result<Lattice> SequenceEncoder::lattice_for(const BoundingBox& box) const {
   return lattice_over(box, options_->fine_bits, options_->coarse_bits, options_->step);
 }
 
