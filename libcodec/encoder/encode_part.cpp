@@ -90,7 +90,8 @@ class PartEncoding {
   PartEncoding(FrameSource& source, const EncodePlan& plan, const FrameRange& part)
       : walk_(source), plan_(plan), part_(part) {}
 
-  Result<EncodeReport> run(SettledOptions settled, const ByteSink& sink, const EncodeProgress& progress) {
+  Result<EncodeReport> run(const SettledOptions& settled, const ByteSink& sink,
+                           const EncodeProgress& progress) {
     const EncodeOptions& options = settled.options;
     if (Status status = read_past(options); !status.ok()) return status.error();
     EncodeProgress with_total;
@@ -297,7 +298,7 @@ Result<EncodeReport> encode_part(FrameSource& source, const EncodeOptions& optio
       if (is_frame_data(one.name)) one = cut_frame_data(one, plan.frames, part);
     }
     add_data(settled->options.data, data);
-    return PartEncoding(source, plan, part).run(std::move(*settled), sink, progress);
+    return PartEncoding(source, plan, part).run(*settled, sink, progress);
   } catch (const std::bad_alloc&) {
     return out_of_memory("there is not enough memory: use fewer frames per GOP or fewer threads");
   }
