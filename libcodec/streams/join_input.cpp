@@ -4,6 +4,7 @@
 #include "container/frame_data.hpp"
 #include "container/stream_writer.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <tvg/data.hpp>
@@ -68,10 +69,7 @@ void JoinInputReader::use(ChunkReader::Event event) {
       metadata_ = reader_.take_metadata();
       break;
     case ChunkReader::Event::kData:
-      data_.push_back({reader_.data_id(), std::string(reader_.data().name), chunk_with(raw), {}});
-      if (is_frame_data(reader_.data().name) || reader_.data().name == kPartData) {
-        if (Result<NamedData> data = unpack_data(reader_.data())) data_.back().unpacked = std::move(*data);
-      }
+      data_.push_back({reader_.data_id(), std::string(reader_.data().name), chunk_with(raw), unpacked()});
       break;
     case ChunkReader::Event::kMesh:
     case ChunkReader::Event::kPlan:
@@ -86,6 +84,19 @@ void JoinInputReader::use(ChunkReader::Event event) {
     default:
       break;
   }
+}
+
+/// The data given out last, where join() looks into them: those at the start, the first of each name, so that
+/// what is unpacked stays within bounds whatever a stream has.
+std::optional<NamedData> JoinInputReader::unpacked() const {
+  constexpr std::uint64_t kMostPartBytes = 256;
+  const CodedData& coded = reader_.data();
+  const bool is_part = coded.name == kPartData && coded.decoded_size <= kMostPartBytes;
+  const bool is_wanted = is_frame_data(coded.name) || is_part;
+  const auto has_name = [&coded](const DataChunk& chunk) { return chunk.name == coded.name; };
+  if (!at_start_ || !is_wanted || std::any_of(data_.begin(), data_.end(), has_name)) return std::nullopt;
+  Result<NamedData> data = unpack_data(coded);
+  return data ? std::optional(std::move(*data)) : std::nullopt;
 }
 
 /// The chunk whose header was read last and whose payload this is.
@@ -109,6 +120,7 @@ Status JoinInputReader::begin() {
     if (*event != ChunkReader::Event::kChunk) continue;
     const ChunkKind kind = kind_of(reader_.chunk());
     if (kind == ChunkKind::kHead || kind == ChunkKind::kMetadata || kind == ChunkKind::kData) continue;
+    at_start_ = false;
     return {};
   }
 }

@@ -53,6 +53,7 @@ class JoinInputReader {
   Result<ChunkReader::Event> next();
   void use(ChunkReader::Event event);
   std::vector<std::uint8_t> chunk_with(Bytes payload) const;
+  std::optional<NamedData> unpacked() const;
   static Bytes kept(const ChunkWindow& window, std::uint32_t id) {
     return *static_cast<const std::vector<std::uint8_t>*>(window.find(id)->content.get());
   }
@@ -63,6 +64,7 @@ class JoinInputReader {
   std::vector<std::uint8_t> piece_;
   Metadata metadata_;
   std::vector<DataChunk> data_;
+  bool at_start_ = true;  ///< what was read stands before meshes and frames
   std::uint32_t gop_mesh_ = 0;
   std::vector<std::uint32_t> gop_planes_;
   std::vector<std::uint8_t> gop_start_;  ///< or what was read last of another chunk

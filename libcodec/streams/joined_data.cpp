@@ -117,7 +117,7 @@ std::vector<std::vector<std::uint8_t>> JoinedData::start_chunks() {
       } else if (const std::optional<NamedData>& whole = wholes.at(chunk.name); !whole) {
         notes_.push_back(start.name + ": data \"" + chunk.name +
                          "\" are left out: they belong to all frames of one input");
-      } else if (&start == &starts_.front()) {
+      } else if (ids_.emplace(chunk.name, chunk.id).second) {
         chunks.push_back(write_chunk(kDataChunk, true, write_data(*whole)));
       }
     }
