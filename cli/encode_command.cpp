@@ -1,6 +1,7 @@
 #include "cli/commands.hpp"
 #include "cli/encode_job.hpp"
 #include "cli/part_job.hpp"
+#include "cli/plan_file.hpp"
 #include "encoder/live/live_encoding.hpp"
 #include "encoder/live/stream_output.hpp"
 #include "tool/option_values.hpp"
@@ -102,8 +103,7 @@ void run_encode(const EncodeCommandArguments& arguments) {
 void run_planned(const EncodeCommandArguments& arguments, const CLI::App& command) {
   const std::array own = {"--plan", "--part", "--output", "--threads", "--quiet", "--json", "--force"};
   for (const CLI::Option* option : command.get_options()) {
-    const std::string name =
-        option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames()[0];
+    const std::string name = option_name(*option);
     if (option->count() == 0 || std::find(own.begin(), own.end(), name) != own.end()) continue;
     throw ToolError(
         ExitStatus::kUsage,

@@ -154,13 +154,16 @@ std::string PlanFile::name_of_part(std::size_t number) const {
   return fmt::format("part {} of {} (frames {}-{})", number, parts.size(), frames.first, frames.last);
 }
 
+std::string option_name(const CLI::Option& option) {
+  return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames()[0];
+}
+
 std::map<std::string, std::vector<std::string>> typed_options(const CLI::App& command,
                                                               const std::string& plan_path) {
   std::map<std::string, std::vector<std::string>> typed;
   const fs::path folder = fs::absolute(plan_path).parent_path();
   for (const CLI::Option* option : command.get_options()) {
-    const std::string name =
-        option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames()[0];
+    const std::string name = option_name(*option);
     if (option->count() == 0 || is_among(kNotOfParts, name)) continue;
     std::vector<std::string> values =
         option->get_type_size() == 0 ? std::vector<std::string>() : option->results();
@@ -221,7 +224,8 @@ void write_plan(const PlanFile& plan, const std::string& path) {
 PlanFile read_plan(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw ToolError(ExitStatus::kIo, fmt::format("{}: {}", path, std::generic_category().message(errno)));
+    throw ToolError(ExitStatus::kIo,
+                    fmt::format("cannot open {}: {}", path, std::generic_category().message(errno)));
   }
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (file.bad()) throw ToolError(ExitStatus::kIo, fmt::format("cannot read {}", path));

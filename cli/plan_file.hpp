@@ -10,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace tvg::cli {
 
@@ -38,6 +39,9 @@ struct PlanFile {
   /// "part 3 of 16 (frames 100-149)"; `number` from 1 on.
   std::string name_of_part(std::size_t number) const;
 };
+
+/// What a plan calls an option: "--bits"; what is given without a name, "input".
+std::string option_name(const CLI::Option& option);
 
 /// Where the file of a plan may name others: what was typed of a command's options, with names of files as
 /// they are from the folder of `plan_path`.
